@@ -75,6 +75,7 @@ const Program& Programs::plainFlat(Features features, bool isBent, Finish finish
 const Program& Programs::tile(Features features, unsigned materialSet, Finish finish, bool crowded) {
     return get(crowded ? Kind::CrowdedTile : Kind::Tile, features, materialSet, finish);
 }
+const Program& Programs::twoColorTile(Finish finish) { return get(Kind::TwoColorTile, {}, 0, finish); }
 const Program& Programs::plainTile(Features features, bool isBent, Finish finish, bool crowded) {
     return get(crowded ? Kind::CrowdedPlainTile : Kind::PlainTile, plainOf(features, isBent), 0, finish);
 }
@@ -154,6 +155,7 @@ bool Programs::warmUp(const std::vector<Key>& keys) {
 
 bool Programs::warmUpPicture(Features features, unsigned materialSet, Finish finish) {
     std::vector<Key> keys{keyOf(Kind::Flat, {}, 0, finish), keyOf(Kind::Tile, {}, 0, finish),
+                          keyOf(Kind::TwoColorTile, {}, 0, finish),
                           keyOf(Kind::Tile, features, materialSet, finish)};
     if (features.has(Features::Linear) || features.has(Features::Radial))
         for (const Kind kind : {Kind::PlainFlat, Kind::PlainTile})
@@ -186,10 +188,13 @@ ProgramSource Programs::source(Kind kind, Features features, Finish finish, std:
             return {"flat", {flat_vertex}, {finishes, finishBlend, output, flat_fragment}};
         case Kind::Tile:
         case Kind::CrowdedTile:
+        case Kind::TwoColorTile:
             if (features.flags() == 0)
                 return {"tile",
                         {tile_vertex},
-                        {crowded, finishes, fetch, place, shadow, cell, finishBlend, output, tile_fragment}};
+                        {crowded,
+                         kind == Kind::TwoColorTile ? "#define TWO_COLORS 1\n" : "#define TWO_COLORS 0\n",
+                         finishes, fetch, place, shadow, cell, finishBlend, output, tile_fragment}};
             return {"tile with programs",
                     {tile_vertex},
                     {crowded, defines, finishes, fetch, place, shadow, cell, shares, shaders::blend, gradient,
@@ -317,6 +322,7 @@ std::vector<ProgramSource> Programs::everySource() {
         add(Kind::Tile, 0, finish);
         add(Kind::Tile, allFeatures, finish);
         add(Kind::CrowdedTile, 0, finish);
+        add(Kind::TwoColorTile, 0, finish);
         add(Kind::CrowdedTile, allFeatures, finish);
         for (const Kind kind : {Kind::PlainFlat, Kind::PlainTile, Kind::CrowdedPlainTile})
             for (const unsigned features : {0u, unsigned(Features::Radial)})

@@ -73,6 +73,8 @@ public:
     const Program& plainFlat(Features features, bool isBent, Finish finish);
     /// `crowded`: some cells' pixels come from a texture.
     const Program& tile(Features features, unsigned materialSet, Finish finish, bool crowded = false);
+    /// Of two solid colours, without crowded cells.
+    const Program& twoColorTile(Finish finish);
     /// Of plain paints that change little over a pixel. `isBent`: their means are those of several points.
     const Program& plainTile(Features features, bool isBent, Finish finish, bool crowded = false);
     const Program& fill(Features features, unsigned materialSet = 0);
@@ -103,6 +105,7 @@ private:
         PlainFlat,
         Tile,
         CrowdedTile,
+        TwoColorTile,
         PlainTile,
         CrowdedPlainTile,
         Fill,

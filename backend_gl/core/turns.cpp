@@ -29,7 +29,7 @@ std::uint32_t rampTurns(std::uint32_t count) {
 std::uint32_t gradientTurns(Spread spread, std::uint32_t count) {
     const bool isLong = count > longRamp;
     const std::uint32_t copies = spread == Spread::Pad ? 1 : isLong ? 3 : 5;
-    return searchTurns(count) + (isLong ? 2 : 1) * loop(copies, rampTurns(count));
+    return searchTurns(count) + loop(isLong ? 2 : 1, loop(copies, rampTurns(count)));
 }
 
 /// imageColor(): two levels at up to 17 points, each found from the first and read at up to 25 texels.

@@ -1,6 +1,7 @@
 #include "backend_gl/tiles/atlas.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <functional>
@@ -293,6 +294,15 @@ std::size_t Atlas::update(const asset::Difference& difference, const PaintUpdate
     else if (paints.programs)
         std::erase_if(placed_, [](const auto& tile) { return tile.second.programs; });
     return paints.isChanged.empty() ? 0 : recolorAll(paints);
+}
+
+std::optional<asset::Texel> Atlas::twoColors(const Placed& tile) const {
+    if (tile.flat || tile.paints != TilePaints::Solid || tile.pairs == 0 || tile.pairs > 2)
+        return std::nullopt;
+    const std::span pairs = std::span(texels_).subspan(tile.firstTexel + tile.firstPair, 2 * tile.pairs);
+    if (tile.pairs == 2 && std::rotl(pairs[1][0], 16) != pairs[3][0])
+        return std::nullopt;
+    return pairs[0];
 }
 
 /// Tiles that show something of the squares.

@@ -109,6 +109,9 @@ public:
     std::size_t update(const asset::Difference& difference, const PaintUpdate& paints);
     /// For one picture. Makes what is missing, on all processors. May move the texture.
     std::vector<const Placed*> prepare(const Region& region);
+    /// Of a tile of solid paints, the colours beside pieces of its first pair, where no other pair but its
+    /// reverse is.
+    std::optional<asset::Texel> twoColors(const Placed& tile) const;
     /// How a view's scale goes on from the one that was told last, if it comes near another level so.
     struct Zoom {
         int levels;    ///< 1 or -1

@@ -33,12 +33,19 @@ struct TileVertex {
     float origin[2];
     std::uint32_t texels[3];
     float picture[4];
+    asset::Texel pair;
 };
 
 void pointFloats(GLuint index, GLint count, std::size_t stride, std::size_t offset) {
     glEnableVertexAttribArray(index);
     glVertexAttribPointer(index, count, GL_FLOAT, GL_FALSE, GLsizei(stride),
                           reinterpret_cast<const void*>(offset));
+}
+
+void pointWords(GLuint index, GLint count, std::size_t stride, std::size_t offset) {
+    glEnableVertexAttribArray(index);
+    glVertexAttribIPointer(index, count, GL_UNSIGNED_INT, GLsizei(stride),
+                           reinterpret_cast<const void*>(offset));
 }
 
 /// Squares of one cut under one view, those that a box of pixels can meet.
@@ -130,7 +137,7 @@ void addSquare(std::vector<Vertex>& vertices, const Squares& squares, i64vec2 at
 
 struct Geometry {
     std::vector<FlatVertex> flat;
-    std::vector<TileVertex> solid, programs;
+    std::vector<TileVertex> twoColors, solid, programs;
     struct Plain {
         std::vector<TileVertex> flat, others;
     };
@@ -163,12 +170,13 @@ TileVertex tileVertex(const Squares& squares, const Placed& tile, std::int64_t x
     return {{0, 0},
             {float(origin.x), float(origin.y)},
             {tile.firstTexel, tile.flat ? tile.words[0] : cells, tile.flat ? 1 + tile.paint : 0},
-            {float(picture.x), float(picture.y), float(squares.side()), float(tile.grid.cellSize())}};
+            {float(picture.x), float(picture.y), float(squares.side()), float(tile.grid.cellSize())},
+            {}};
 }
 
 /// Each tile by itself: a longer rectangle would have corners of its neighbours on its edges, where rounding
 /// leaves gaps.
-Geometry geometryOf(const UploadedAsset& asset, std::uint32_t firstPaint, const Squares& squares,
+Geometry geometryOf(const UploadedAsset& asset, const Atlas& atlas, const Squares& squares,
                     const std::vector<const Placed*>& placed) {
     Geometry geometry;
     auto next = placed.begin();
@@ -180,12 +188,16 @@ Geometry geometryOf(const UploadedAsset& asset, std::uint32_t firstPaint, const 
             geometry.drawn = geometry.drawn.joined(squares.pixelsOf(i64vec2(x, y)));
             for (const std::uint16_t cell : tile.crowded)
                 geometry.crowded = geometry.crowded.joined(squares.pixelsOfCell({x, y}, tile.grid, cell));
-            if (!tile.flat || tile.paints != TilePaints::Solid)
-                addSquare(geometry.of(tile, squares.minSteepness()), squares, {x, y},
-                          tileVertex(squares, tile, x, y));
-            else
+            if (tile.flat && tile.paints == TilePaints::Solid) {
                 addSquare(geometry.flat, squares, {x, y},
-                          flatVertex(asset.paints[firstPaint + tile.paint], tile.words));
+                          flatVertex(asset.paints[atlas.firstPaint() + tile.paint], tile.words));
+                continue;
+            }
+            TileVertex vertex = tileVertex(squares, tile, x, y);
+            const std::optional<asset::Texel> pair = atlas.twoColors(tile);
+            vertex.pair = pair.value_or(asset::Texel{});
+            addSquare(pair ? geometry.twoColors : geometry.of(tile, squares.minSteepness()), squares, {x, y},
+                      vertex);
         }
     return geometry;
 }
@@ -214,7 +226,7 @@ PixelBox boxAhead(const PixelBox& box, double scale) {
 Geometry preparedGeometry(const UploadedAsset& asset, Atlas& atlas, const Squares& squares, int level,
                           const asset::View& view, const PixelBox& box) {
     const Geometry geometry =
-        geometryOf(asset, atlas.firstPaint(), squares, atlas.prepare({level, squares.min, squares.max}));
+        geometryOf(asset, atlas, squares, atlas.prepare({level, squares.min, squares.max}));
     if (const std::optional<Atlas::Zoom> zoom = atlas.zoomTo(view)) {
         const int next = level + zoom->levels;
         const Squares ahead(atlas.map(), view, boxAhead(box, zoom->scale), next);
@@ -268,10 +280,9 @@ PictureBuffers::PictureBuffers()
     glBindBuffer(GL_ARRAY_BUFFER, tile.get());
     pointFloats(0, 2, sizeof(TileVertex), offsetof(TileVertex, position));
     pointFloats(1, 2, sizeof(TileVertex), offsetof(TileVertex, origin));
-    glEnableVertexAttribArray(2);
-    glVertexAttribIPointer(2, 3, GL_UNSIGNED_INT, sizeof(TileVertex),
-                           reinterpret_cast<const void*>(offsetof(TileVertex, texels)));
+    pointWords(2, 3, sizeof(TileVertex), offsetof(TileVertex, texels));
     pointFloats(3, 4, sizeof(TileVertex), offsetof(TileVertex, picture));
+    pointWords(4, 4, sizeof(TileVertex), offsetof(TileVertex, pair));
     glBindVertexArray(0);
 }
 
@@ -304,6 +315,9 @@ PixelBox drawMap(Programs& programs, PictureBuffers& buffers, const UploadedAsse
     const auto drawTiles = [&](const Program& program, const std::vector<TileVertex>& vertices) {
         drawAll(program, buffers.tileArray, buffers.tile, vertices);
     };
+    if (!geometry.twoColors.empty())
+        drawTiles(crowded ? programs.tile({}, 0, finish, crowded) : programs.twoColorTile(finish),
+                  geometry.twoColors);
     if (!geometry.solid.empty())
         drawTiles(programs.tile({}, 0, finish, crowded), geometry.solid);
     for (std::size_t i = 0; i < geometry.plain.size(); ++i) {

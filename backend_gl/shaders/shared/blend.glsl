@@ -4,46 +4,55 @@
 
 vec4 over(vec4 source, vec4 backdrop) { return source + (1.0 - source.a) * backdrop; }
 
-vec3 straight(vec4 c) { return c.a > 0.0 ? min(c.rgb / c.a, vec3(1.0)) : vec3(0.0); }
+vec3 straight(vec4 c) { return mix(vec3(0.0), min(c.rgb / c.a, vec3(1.0)), bvec3(c.a > 0.0)); }
 
-// ---- Separable modes: b the backdrop's channel, s the source's ------------------------------------
+// ---- Separable modes: b the backdrop's channels, s the source's -----------------------------------
 
-float hardLight(float b, float s) { return s <= 0.5 ? b * 2.0 * s : b + (2.0 * s - 1.0) - b * (2.0 * s - 1.0); }
-
-float colorDodge(float b, float s) {
-    if (b <= 0.0)
-        return 0.0;
-    return s >= 1.0 ? 1.0 : min(1.0, b / (1.0 - s));
+vec3 hardLight(vec3 b, vec3 s) {
+    return mix(b + (2.0 * s - 1.0) - b * (2.0 * s - 1.0), b * 2.0 * s, lessThanEqual(s, vec3(0.5)));
 }
 
-float colorBurn(float b, float s) {
-    if (b >= 1.0)
-        return 1.0;
-    return s <= 0.0 ? 0.0 : 1.0 - min(1.0, (1.0 - b) / s);
+vec3 colorDodge(vec3 b, vec3 s) {
+    vec3 dodged = mix(min(b / (1.0 - s), vec3(1.0)), vec3(1.0), greaterThanEqual(s, vec3(1.0)));
+    return mix(dodged, vec3(0.0), lessThanEqual(b, vec3(0.0)));
 }
 
-float softLight(float b, float s) {
-    if (s <= 0.5)
-        return b - (1.0 - 2.0 * s) * b * (1.0 - b);
-    float d = b <= 0.25 ? ((16.0 * b - 12.0) * b + 4.0) * b : sqrt(b);
-    return b + (2.0 * s - 1.0) * (d - b);
+vec3 colorBurn(vec3 b, vec3 s) {
+    vec3 burnt = mix(1.0 - min((1.0 - b) / s, vec3(1.0)), vec3(0.0), lessThanEqual(s, vec3(0.0)));
+    return mix(burnt, vec3(1.0), greaterThanEqual(b, vec3(1.0)));
 }
 
-float mixChannel(uint mode, float b, float s) {
-    switch (mode) {
-        case blendMultiply: return b * s;
-        case blendScreen: return b + s - b * s;
-        case blendOverlay: return hardLight(s, b);
-        case blendDarken: return min(b, s);
-        case blendLighten: return max(b, s);
-        case blendColorDodge: return colorDodge(b, s);
-        case blendColorBurn: return colorBurn(b, s);
-        case blendHardLight: return hardLight(b, s);
-        case blendSoftLight: return softLight(b, s);
-        case blendDifference: return abs(b - s);
-        case blendExclusion: return b + s - 2.0 * b * s;
-        default: return s;
-    }
+// max keeps the root's argument positive where the other value is taken.
+vec3 softLight(vec3 b, vec3 s) {
+    vec3 d = mix(sqrt(max(b, 0.0)), ((16.0 * b - 12.0) * b + 4.0) * b, lessThanEqual(b, vec3(0.25)));
+    return mix(b + (2.0 * s - 1.0) * (d - b), b - (1.0 - 2.0 * s) * b * (1.0 - b), lessThanEqual(s, vec3(0.5)));
+}
+
+vec3 mixChannels(uint mode, vec3 b, vec3 s) {
+    vec3 mixed = s;
+    if (mode == blendMultiply)
+        mixed = b * s;
+    if (mode == blendScreen)
+        mixed = b + s - b * s;
+    if (mode == blendOverlay)
+        mixed = hardLight(s, b);
+    if (mode == blendDarken)
+        mixed = min(b, s);
+    if (mode == blendLighten)
+        mixed = max(b, s);
+    if (mode == blendColorDodge)
+        mixed = colorDodge(b, s);
+    if (mode == blendColorBurn)
+        mixed = colorBurn(b, s);
+    if (mode == blendHardLight)
+        mixed = hardLight(b, s);
+    if (mode == blendSoftLight)
+        mixed = softLight(b, s);
+    if (mode == blendDifference)
+        mixed = abs(b - s);
+    if (mode == blendExclusion)
+        mixed = b + s - 2.0 * b * s;
+    return mixed;
 }
 
 // ---- Non-separable modes --------------------------------------------------------------------------
@@ -55,38 +64,38 @@ float saturation(vec3 c) { return highest(c) - lowest(c); }
 
 vec3 clipColor(vec3 c) {
     float l = luminosity(c), n = lowest(c), x = highest(c);
-    if (n < 0.0)
-        c = l + (c - l) * (l / (l - n));
-    if (x > 1.0)
-        c = l + (c - l) * ((1.0 - l) / (x - l));
-    return c;
+    c = mix(c, l + (c - l) * (l / (l - n)), bvec3(n < 0.0));
+    return mix(c, l + (c - l) * ((1.0 - l) / (x - l)), bvec3(x > 1.0));
 }
 
 vec3 setLuminosity(vec3 c, float l) { return clipColor(c + (l - luminosity(c))); }
 
 vec3 setSaturation(vec3 c, float s) {
     float range = saturation(c);
-    return range > 0.0 ? (c - lowest(c)) * (s / range) : vec3(0.0);
+    return mix(vec3(0.0), (c - lowest(c)) * (s / range), bvec3(range > 0.0));
 }
 
+// Hue and Color take the source's hue, Saturation and Luminosity the backdrop's.
 vec3 mixColors(uint mode, vec3 b, vec3 s) {
-    switch (mode) {
-        case blendHue: return setLuminosity(setSaturation(s, saturation(b)), luminosity(b));
-        case blendSaturation: return setLuminosity(setSaturation(b, saturation(s)), luminosity(b));
-        case blendColor: return setLuminosity(s, luminosity(b));
-        case blendLuminosity: return setLuminosity(b, luminosity(s));
-        default: return vec3(mixChannel(mode, b.r, s.r), mixChannel(mode, b.g, s.g), mixChannel(mode, b.b, s.b));
-    }
+    bool isLuminosity = mode == blendLuminosity, isColor = mode == blendColor;
+    bool isHue = mode == blendHue, isSaturation = mode == blendSaturation;
+    bvec3 ofBackdrop = bvec3(isSaturation || isLuminosity);
+    vec3 color = mix(s, b, ofBackdrop), other = mix(b, s, ofBackdrop), mixed = mixChannels(mode, b, s);
+    if (isHue || isSaturation)
+        color = setSaturation(color, saturation(other));
+    if (isHue || isSaturation || isColor || isLuminosity)
+        mixed = setLuminosity(color, luminosity(mix(b, s, bvec3(isLuminosity))));
+    return mixed;
 }
 
 vec4 blend(uint mode, vec4 source, vec4 backdrop) {
-    if (mode == blendNormal)
-        return over(source, backdrop);
-    if (mode == blendPlusLighter)
-        return min(source + backdrop, 1.0);
-    vec3 mixed = mixColors(mode, straight(backdrop), straight(source));
-    return vec4((1.0 - backdrop.a) * source.rgb + (1.0 - source.a) * backdrop.rgb + source.a * backdrop.a * mixed,
-                source.a + backdrop.a - source.a * backdrop.a);
+    vec4 color = mix(over(source, backdrop), min(source + backdrop, 1.0), bvec4(mode == blendPlusLighter));
+    if (mode != blendNormal && mode != blendPlusLighter) {
+        vec3 mixed = mixColors(mode, straight(backdrop), straight(source));
+        color = vec4((1.0 - backdrop.a) * source.rgb + (1.0 - source.a) * backdrop.rgb + source.a * backdrop.a * mixed,
+                     source.a + backdrop.a - source.a * backdrop.a);
+    }
+    return color;
 }
 
 // ---- Masks ----------------------------------------------------------------------------------------
@@ -98,7 +107,8 @@ vec3 linearLight(vec3 c) {
 
 float maskFactor(uint op, vec4 mask) {
     const vec3 luminance = vec3(0.2126, 0.7152, 0.0722);
-    if (op == opPopMaskAlpha)
-        return mask.a;
-    return op == opPopMaskLuminance ? dot(mask.rgb, luminance) : mask.a * dot(linearLight(straight(mask)), luminance);
+    float factor = mix(mask.a, dot(mask.rgb, luminance), op == opPopMaskLuminance);
+    if (op != opPopMaskAlpha && op != opPopMaskLuminance)
+        factor = mask.a * dot(linearLight(straight(mask)), luminance);
+    return factor;
 }

@@ -16,7 +16,7 @@ vec2 toPixel(Frame frame, vec2 p) { return frame.linear * p + frame.origin; }
 float meanOfClamp(float a, float b) {
     float from = clamp(a, 0.0, 1.0), to = clamp(b, 0.0, 1.0), span = b - a;
     float ramp = (to - from) * (to + from) * 0.5, above = max(b, 1.0) - max(a, 1.0);
-    return abs(span) < smallestSpan ? from : (ramp + above) / span;
+    return mix((ramp + above) / span, from, abs(span) < smallestSpan);
 }
 
 // ∫ clamp(x, 0, 1) dy along P -> Q inside 0 <= y <= 1.
@@ -24,7 +24,7 @@ float seg(vec2 p, vec2 q) {
     vec2 d = q - p;
     float y0 = clamp(p.y, 0.0, 1.0), y1 = clamp(q.y, 0.0, 1.0), slope = d.x / d.y;
     float x0 = p.x + slope * (y0 - p.y), x1 = q.x + slope * (y1 - q.y);
-    return abs(d.y) < smallestSpan ? 0.0 : (y1 - y0) * meanOfClamp(x0, x1);
+    return mix((y1 - y0) * meanOfClamp(x0, x1), 0.0, abs(d.y) < smallestSpan);
 }
 
 vec2 cornerOf(Frame frame, int k) {
@@ -58,27 +58,21 @@ Curve curveOf(Frame frame, uvec4 piece) {
 vec2 rangeInBox(Curve c) {
     float area = cross2(c.chord, c.normal);
     float bulge = 4.0 / 27.0 * (abs(c.slopeA) + abs(c.slopeB));
-    if (area == 0.0 || bulge == 0.0)
-        return vec2(0.0);
     vec2 toCentre = vec2(0.5) - c.a;
     float halfS = 0.5 * (abs(c.normal.x) + abs(c.normal.y)) / abs(area);
     float halfT = 0.5 * (abs(c.chord.x) + abs(c.chord.y)) / abs(area);
-    if (abs(cross2(c.chord, toCentre) / area) > bulge + halfT)
-        return vec2(0.0);
+    bool misses = area == 0.0 || bulge == 0.0 || abs(cross2(c.chord, toCentre) / area) > bulge + halfT;
     float s = cross2(toCentre, c.normal) / area;
-    return clamp(vec2(s - halfS, s + halfS), 0.0, 1.0);
+    return mix(clamp(vec2(s - halfS, s + halfS), 0.0, 1.0), vec2(0.0), bvec2(misses));
 }
 
 // Side of the leaf on which an end point lies, decided on the stored integers; -1: inside.
 int sideOf(uint point) {
     uvec2 p = uvec2(low(point), high(point));
-    if (p.y == 0u && p.x < leafExtent)
-        return 0;
-    if (p.x == leafExtent && p.y < leafExtent)
-        return 1;
-    if (p.y == leafExtent && p.x > 0u)
-        return 2;
-    return p.x == 0u && p.y > 0u ? 3 : -1;
+    int side = p.x == 0u && p.y > 0u ? 3 : -1;
+    side = p.y == leafExtent && p.x > 0u ? 2 : side;
+    side = p.x == leafExtent && p.y < leafExtent ? 1 : side;
+    return p.y == 0u && p.x < leafExtent ? 0 : side;
 }
 
 // Along a piece from A to B. Outside the box one chord stands for the curve. Points between are off the curve by
@@ -94,7 +88,7 @@ float curveSum(Frame frame, uvec4 piece) {
     for (int i = 0; i <= end; ++i) {
         float s = range.x + float(i) * h, r = 1.0 - s;
         float t = s * r * (c.slopeA * r - c.slopeB * s) + lift.x + s * lift.y;
-        vec2 next = i == end ? c.b : c.a + s * c.chord + t * c.normal;
+        vec2 next = mix(c.a + s * c.chord + t * c.normal, c.b, bvec2(i == end));
         sum += seg(last, next);
         last = next;
         if (i == end)
@@ -106,7 +100,10 @@ float curveSum(Frame frame, uvec4 piece) {
 // From a point to the end of the leaf's side on which it lies; 0 inside.
 float alongSide(Frame frame, uint point) {
     int side = sideOf(point);
-    return side < 0 ? 0.0 : seg(toPixel(frame, vec2(low(point), high(point))), cornerOf(frame, (side + 1) & 3));
+    float area = 0.0;
+    if (side >= 0)
+        area = seg(toPixel(frame, vec2(low(point), high(point))), cornerOf(frame, (side + 1) & 3));
+    return area;
 }
 
 // What a piece adds to the loop of the region on its left, which is closed along the leaf's sides.

@@ -10,11 +10,8 @@ vec2 applyMatrix(uvec4 a, uvec4 b, vec2 p) {
 }
 
 float spreadOffset(uint spread, float u) {
-    switch (spread) {
-        case spreadReflect: return 1.0 - abs(1.0 - (u - 2.0 * floor(u / 2.0)));
-        case spreadRepeat: return u - floor(u);
-        default: return clamp(u, 0.0, 1.0);
-    }
+    float reflected = 1.0 - abs(1.0 - (u - 2.0 * floor(u / 2.0)));
+    return mix(mix(clamp(u, 0.0, 1.0), u - floor(u), spread == spreadRepeat), reflected, spread == spreadReflect);
 }
 
 // How many stops have an offset <= u; of several at one offset the last counts from there on.
@@ -22,10 +19,9 @@ uint stopsUpTo(ASSET_IN uint firstStop, uint count, float u) {
     uint from = 0u, to = count;
     while (from < to) {
         uint middle = (from + to) / 2u;
-        if (uintBitsToFloat(texelAt(ASSET firstStop + middle).x) <= u)
-            from = middle + 1u;
-        else
-            to = middle;
+        bool counts = uintBitsToFloat(texelAt(ASSET firstStop + middle).x) <= u;
+        from = counts ? middle + 1u : from;
+        to = counts ? to : middle;
         if (from >= to)
             break;
     }
@@ -39,7 +35,7 @@ vec4 premultiplied(vec4 c) { return vec4(c.rgb * c.a, c.a); }
 // Straight colours are interpolated, then premultiplied (SVG 2 section 14.2.4).
 vec4 colorBetween(uvec4 before, uvec4 after, float u) {
     float start = uintBitsToFloat(before.x), gap = uintBitsToFloat(after.x) - start;
-    return premultiplied(mix(stopColor(before), stopColor(after), gap > 0.0 ? (u - start) / gap : 0.0));
+    return premultiplied(mix(stopColor(before), stopColor(after), mix(0.0, (u - start) / gap, gap > 0.0)));
 }
 
 // ---- Means over pixels
@@ -60,7 +56,7 @@ vec4 integralBetween(ASSET_IN uint from, uint to) {
 // boxes: |d| is at most `reach`, and up to `even` all are alike.
 float pixelWeight(float d, float reach, float even) {
     float rest = reach - abs(d), slope = reach - even;
-    return rest < slope ? rest / slope : 1.0;
+    return mix(1.0, rest / slope, rest < slope);
 }
 
 // A part of one period of the ramp, along it: the pixel's middle, and distances d from there, `from` to `last`.
@@ -85,10 +81,10 @@ Period periodAt(uint spread, float n, float u, float reach) {
 void addStretch(ASSET_IN uint firstStop, uint count, float reach, float even, vec4 base, inout Period part, inout uint next,
                 inout vec4 sum, inout float weights) {
     float middle = part.middle, from = part.from;
-    uvec4 before = texelAt(ASSET firstStop + (next == 0u ? 0u : next - 1u));
+    uvec4 before = texelAt(ASSET firstStop + max(next, 1u) - 1u);
     uvec4 after = texelAt(ASSET firstStop + min(next, count - 1u));
-    float end = next == count ? part.last : min(part.last, uintBitsToFloat(after.x) - middle);
-    float bend = from < -even ? -even : from < even ? even : part.last, to = min(end, bend);
+    float end = mix(min(part.last, uintBitsToFloat(after.x) - middle), part.last, next == count);
+    float bend = mix(mix(part.last, even, from < even), -even, from < -even), to = min(end, bend);
     if (from < to) {
         float at = 0.5 * (from + to), sixth = (to - from) / 6.0;
         vec3 shares = sixth * vec3(pixelWeight(from, reach, even), 4.0 * pixelWeight(at, reach, even),
@@ -119,7 +115,7 @@ void skipStops(ASSET_IN uint firstStop, uint count, vec4 base, inout Period part
 
 // The mean over a pixel whose sides change u by `longer` > 0 and `shorter`, and in whose middle `base` is. A reflected ramp
 // repeats after two, so no mean is over more; a padded one is all but two colours beyond 1024. One loop over the stretches
-// of all periods, since some compilers (SwiftShader's) take twice as long for each loop around a loop.
+// of all periods, since compilers inline what is in it.
 vec4 rampMean(ASSET_IN uint firstStop, uint count, uint spread, float u, float longer, float shorter,
               vec4 base) {
     bool periodic = spread == spreadReflect || spread == spreadRepeat;
@@ -127,9 +123,9 @@ vec4 rampMean(ASSET_IN uint firstStop, uint count, uint spread, float u, float l
     longer = min(longer, widest);
     shorter = min(shorter, widest);
     float reach = 0.5 * (longer + shorter), even = 0.5 * (longer - shorter), weights = 0.0;
-    u -= periodic ? 2.0 * floor(0.5 * u) : 0.0;
+    u -= mix(0.0, 2.0 * floor(0.5 * u), periodic);
     vec4 sum = vec4(0.0);
-    float n = periodic ? floor(u - reach) : 0.0, end = periodic ? u + reach : 1.0;
+    float n = mix(0.0, floor(u - reach), periodic), end = mix(1.0, u + reach, periodic);
     Period part = Period(0.0, 0.0, 0.0);
     uint next = 0u;
     while (n < end || part.from < part.last) {
@@ -144,40 +140,51 @@ vec4 rampMean(ASSET_IN uint firstStop, uint count, uint spread, float u, float l
         if (n >= end && part.from >= part.last)
             break;
     }
-    return weights > 0.0 ? base + sum / weights : base;
+    return mix(base, base + sum / weights, bvec4(weights > 0.0));
+}
+
+// The same; of long ramps the shorter side's box is replaced by two points with the same variance.
+vec4 meanOver(ASSET_IN uint firstStop, uint count, uint spread, float u, float longer, float shorter, vec4 base) {
+#if LONG_RAMPS
+    bool isLong = count > longRamp;
+    float apart = mix(0.0, 0.28867513 * shorter, isLong);  // 1 / sqrt(12)
+    int points = isLong ? 2 : 1;
+    shorter = mix(shorter, 0.0, isLong);
+    vec4 sum = vec4(0.0);
+    for (int i = 0; i < points; ++i) {
+        sum += rampMean(ASSET firstStop, count, spread, u + float(2 * i - 1) * apart, longer, shorter, base);
+        if (i + 1 == points)
+            break;
+    }
+    return sum / float(points);
+#else
+    return rampMean(ASSET firstStop, count, spread, u, longer, shorter, base);
+#endif
 }
 
 // A stretch is as good as straight in a pixel if interpolating straight colours moves the mean over it by no more: its
 // bend times the variance, which is a twelfth of the width's square at most.
 const float maxBending = 1.0 / 3000.0;
 
-// The mean over a pixel whose sides change u by `sides`, exactly; of long ramps the shorter side's box is replaced by two
-// points with the same variance. Where the pixel has nothing but a little of one stretch between two stops, it is the
-// colour in the middle.
+// The mean over a pixel whose sides change u by `sides`. Where the pixel has nothing but a little of one stretch between two
+// stops, it is the colour in the middle.
 vec4 colorOver(ASSET_IN uint firstStop, uint count, uint spread, float u, vec2 sides) {
     sides = min(abs(sides), vec2(1024.0));
     float longer = max(sides.x, sides.y), shorter = min(sides.x, sides.y), width = longer + shorter;
     bool padded = spread != spreadReflect && spread != spreadRepeat;
     float v = spreadOffset(spread, u), unclamped = padded ? u : v;
     uint upTo = stopsUpTo(ASSET firstStop, count, unclamped);
-    uvec4 before = texelAt(ASSET firstStop + (upTo == 0u ? 0u : upTo - 1u));
+    uvec4 before = texelAt(ASSET firstStop + max(upTo, 1u) - 1u);
     uvec4 after = texelAt(ASSET firstStop + min(upTo, count - 1u));
     vec4 change = abs(stopColor(after) - stopColor(before));
     float bend = max(change.r, max(change.g, change.b)) * change.a;  // times the stretch's length squared
-    float low = upTo > 0u ? uintBitsToFloat(before.x) : 0.0, high = upTo < count ? uintBitsToFloat(after.x) : 1.0;
+    float low = mix(0.0, uintBitsToFloat(before.x), upTo > 0u), high = mix(1.0, uintBitsToFloat(after.x), upTo < count);
     float gap = high - low;
     vec4 middle = colorBetween(before, after, v);
-    if (width * width * bend <= 12.0 * maxBending * gap * gap && (padded && upTo == 0u || unclamped - 0.5 * width >= low) &&
-        (padded && upTo == count || unclamped + 0.5 * width <= high))
-        return middle;
-#if LONG_RAMPS
-    if (count > longRamp) {
-        float apart = 0.28867513 * shorter;  // 1 / sqrt(12)
-        return 0.5 * (rampMean(ASSET firstStop, count, spread, u - apart, longer, 0.0, middle) +
-                      rampMean(ASSET firstStop, count, spread, u + apart, longer, 0.0, middle));
-    }
-#endif
-    return rampMean(ASSET firstStop, count, spread, u, longer, shorter, middle);
+    bool isMiddle = width * width * bend <= 12.0 * maxBending * gap * gap &&
+                    (padded && upTo == 0u || unclamped - 0.5 * width >= low) &&
+                    (padded && upTo == count || unclamped + 0.5 * width <= high);
+    return isMiddle ? middle : meanOver(ASSET firstStop, count, spread, u, longer, shorter, middle);
 }
 
 // ---- Radial gradients
@@ -190,16 +197,12 @@ bool radialOffset(vec2 p, vec2 f, float fr, out float u, out vec2 slope) {
     float grow = 1.0 - fr;
     float a = grow * grow - dot(f, f), b = dot(d, f) - fr * grow, c = dot(d, d) - fr * fr;
     float discriminant = b * b + a * c;
-    u = 0.0;
-    slope = vec2(0.0);
-    if (discriminant < 0.0)
-        return false;
-    float q = b + (b < 0.0 ? -1.0 : 1.0) * sqrt(discriminant);
-    float one = q == 0.0 ? 0.0 : -c / q, other = a == 0.0 ? one : q / a;
+    float q = b + (b < 0.0 ? -1.0 : 1.0) * sqrt(max(discriminant, 0.0));
+    float one = mix(-c / q, 0.0, q == 0.0), other = mix(q / a, one, a == 0.0);
     float larger = max(one, other), smaller = min(one, other);
     u = fr + larger * grow >= 0.0 ? larger : smaller;
     slope = (u * f + d) / max(abs(a * u - b), 1e-6);
-    return fr + u * grow >= 0.0;
+    return discriminant >= 0.0 && fr + u * grow >= 0.0;
 }
 
 // A radial gradient is a cone over the plane, about its focus: the mean of u over a pixel is not that in the middle. Moves
@@ -208,11 +211,11 @@ void overCone(vec2 slope, vec2 d, mat2 sides, inout float u, out vec2 along) {
     along = slope * sides;
     float steep = dot(slope, slope), above = steep * dot(d, d);
     float all = steep * (dot(sides[0], sides[0]) + dot(sides[1], sides[1])), radial = dot(along, along);
-    if (!(radial > 0.0) || above > 64.0 * all)  // far from the tip
-        return;
-    float near = 1.0 / (1.0 + 6.6 * above / all), tip = 0.0315 * all * near * near;
-    u += sqrt(above + max(all - radial, 0.0) / 12.0 + tip) - sqrt(above);
-    along *= sqrt(max(0.0, 1.0 - 12.0 * tip / radial));
+    if (radial > 0.0 && above <= 64.0 * all) {  // else it is far from the tip
+        float near = 1.0 / (1.0 + 6.6 * above / all), tip = 0.0315 * all * near * near;
+        u += sqrt(above + max(all - radial, 0.0) / 12.0 + tip) - sqrt(above);
+        along *= sqrt(max(0.0, 1.0 - 12.0 * tip / radial));
+    }
 }
 
 // Where the middle of a pixel is nearer to the focus than this share of its side, it is put there: at the focus itself
@@ -226,13 +229,16 @@ vec4 gradientColor(ASSET_IN bool radial, uint gradient, vec2 point, mat3x2 pixel
     mat2 sides = mat2(linear.xy, linear.zw) * mat2(pixel[0], pixel[1]);
     vec2 p = applyMatrix(a, b, point), along = vec2(sides[0].x, sides[1].x);
     float u = p.x;
+    bool exists = true;
     if (radial) {
         vec4 focus = uintBitsToFloat(texelAt(ASSET gradient + 2u));
         vec2 d = p - focus.xy, slope;
-        d = length(d) < besideFocus * length(sides[0]) ? besideFocus * sides[0] : d;
-        if (!radialOffset(focus.xy + d, focus.xy, focus.z, u, slope))
-            return vec4(0.0);
+        d = mix(d, besideFocus * sides[0], bvec2(length(d) < besideFocus * length(sides[0])));
+        exists = radialOffset(focus.xy + d, focus.xy, focus.z, u, slope);
         overCone(slope, d, sides, u, along);
     }
-    return colorOver(ASSET gradient + 3u, b.w, b.z, u, along);
+    vec4 color = vec4(0.0);
+    if (exists)
+        color = colorOver(ASSET gradient + 3u, b.w, b.z, u, along);
+    return color;
 }

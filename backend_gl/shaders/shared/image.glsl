@@ -21,7 +21,7 @@ vec4 levelTexel(ASSET_IN uvec4 level, ivec2 p) {
     uint index = level.x + uint(p.y) * level.y + uint(p.x);
     ivec2 place = ivec2(index & ((1u << imageColumnsLog2) - 1u), index >> imageColumnsLog2);
     vec4 c = texelFetch(ASSET_PART(images), place, 0);
-    return vec4(level.w == 0u ? c.rgb * c.a : c.rgb, c.a);
+    return vec4(mix(c.rgb, c.rgb * c.a, bvec3(level.w == 0u)), c.a);
 }
 
 // How texels make a colour: the mean of a square, `width` texels wide, and by a share Catmull-Rom's cubic. The width
@@ -33,18 +33,17 @@ struct Kernel {
 // Weights of texels whose middles are at these distances. The cubic (Keys 1981, a = -1/2) passes through the pixels,
 // and through the points of any quadratic.
 vec2 weightsOf(Kernel kernel, vec2 d) {
-    if (kernel.width == 0.0)
-        return vec2(1.0);
     d = abs(d);
     float reach = 0.5 * kernel.width;
     vec2 mean = max(min(d + 0.5, vec2(reach)) - max(d - 0.5, vec2(-reach)), 0.0) / kernel.width;
     vec2 keys = mix((1.5 * d - 2.5) * d * d + 1.0, ((-0.5 * d + 2.5) * d - 4.0) * d + 2.0, step(1.0, d));
-    return mix(mean, keys, kernel.cubic);
+    return mix(mix(mean, keys, kernel.cubic), vec2(1.0), bvec2(kernel.width == 0.0));
 }
 
 // Of texels in a row that count at most.
 int tapsOf(Kernel kernel) {
-    return kernel.cubic > 0.0 ? 4 : int(ceil(kernel.width)) + 1;
+    int taps = int(ceil(kernel.width)) + 1;
+    return kernel.cubic > 0.0 ? 4 : taps;
 }
 
 // Premultiplied neighbours are summed, so that transparent pixels lend no colour.
@@ -52,7 +51,7 @@ vec4 filtered(ASSET_IN uvec4 level, vec2 p, Kernel kernel) {
     // Keeps the conversion to int defined; the edge goes on beyond the border anyway.
     p = clamp(p * exp2(-float(level.w)), vec2(-2.0), vec2(level.yz) + 2.0);
     int taps = tapsOf(kernel);
-    vec2 corner = floor(p - (kernel.cubic > 0.0 ? 1.5 : 0.5 * kernel.width));
+    vec2 corner = floor(p - mix(0.5 * kernel.width, 1.5, kernel.cubic > 0.0));
     vec4 sum = vec4(0.0);
     ivec2 tap = ivec2(0);
     for (int i = 0; i < taps * taps; ++i) {
@@ -83,11 +82,11 @@ Probes probesOf(mat2 m) {
     float c = m[0].y * m[0].y + m[1].y * m[1].y;
     float halved = 0.5 * (a - c), root = length(vec2(halved, b)), longer = sqrt(0.5 * (a + c) + root);
     float shorter = abs(m[0].x * m[1].y - m[0].y * m[1].x) / max(longer, 1e-20);
-    vec2 along = halved > 0.0 ? vec2(halved + root, b) : vec2(b, root - halved);
+    vec2 along = mix(vec2(b, root - halved), vec2(halved + root, b), bvec2(halved > 0.0));
     float width = max(1.0, max(shorter, longer / maxOblong));
     float all = clamp(longer / width - nearlyRound, 1.0, maxOblong);
     int side = int(ceil(0.5 * (all - 1.0)));
-    return Probes(side, width, side == 0 ? 1.0 : 0.5 * (all - float(2 * side - 1)), all,
+    return Probes(side, width, mix(0.5 * (all - float(2 * side - 1)), 1.0, side == 0), all,
                   along * (width / max(length(along), 1e-20)));
 }
 
@@ -123,11 +122,11 @@ vec4 imageColor(ASSET_IN uint fill, vec2 point, mat3x2 pixel) {
     for (int i = levels * -probes.side; i < levels * (probes.side + 1); ++i) {
         // The two levels take turns at each of the points.
         bool coarser = levels == 2 && (i & 1) == 1;
-        int probe = levels == 2 ? i >> 1 : i;
+        int ofTwo = i >> 1, probe = levels == 2 ? ofTwo : i;
         uvec4 level = levelOf(picture, uint(lod) + (coarser ? 1u : 0u));
-        float weight = (abs(probe) == probes.side ? probes.outer : 1.0) / probes.all;
-        Kernel ofLevel = Kernel(coarser ? 0.5 * kernel.width : kernel.width, kernel.cubic);
-        sum += weight * (coarser ? share : 1.0 - share) *
+        float weight = mix(1.0, probes.outer, abs(probe) == probes.side) / probes.all;
+        Kernel ofLevel = Kernel(mix(kernel.width, 0.5 * kernel.width, coarser), kernel.cubic);
+        sum += weight * mix(1.0 - share, share, coarser) *
                filtered(ASSET level, p + float(probe) * probes.step, ofLevel);
         if (i + 1 == levels * (probes.side + 1))
             break;

@@ -38,7 +38,8 @@ Pieces piecesOf(uvec4 leaf, vec4 corners) {
 // From a point on a side to the first corner; 0 inside.
 float toFirstCorner(Frame frame, vec4 behind, uint point) {
     int side = sideOf(point);
-    return alongSide(frame, point) + (side < 0 ? 0.0 : side == 0 ? behind.x : side == 1 ? behind.y : side == 2 ? behind.z : 0.0);
+    float sides = mix(mix(mix(0.0, behind.z, side == 2), behind.y, side == 1), behind.x, side == 0);
+    return alongSide(frame, point) + sides;
 }
 
 // Of curveSum()'s loop, at most: straight pieces are one chord.

@@ -1,10 +1,11 @@
 // An asset as a texture: the mean colour over a parallelogram of the picture. docs/texture.md.
-// Requires: sample_asset.glsl, sample_tree.glsl, sample_maps.glsl, sample_page.glsl, sample_prefilter.glsl; TEXT_PAGES;
+// Requires: sample_asset.glsl, sample_tree.glsl, sample_maps.glsl, sample_page.glsl, sample_prefilter.glsl;
 // constants wrap*, turnsPerPixel, prefilterTurns, FEATURES, VTM_SAMPLES.
 // Exports: vtm_sample, vtm_sample_proj, vtm_sample_grad.
 
 // Here as everywhere loops are left at the bottom, by a break: some drivers run the body otherwise once more, with all
 // loops in it, to find that they have ended. (Others take long to compile nested loops with conditions at the bottom.)
+// Values are chosen by mix(), or by `?:` between variables, which is no branch: docs/backend.md, Programs.
 
 // ---- The footprint ------------------------------------------------------------------------------------
 
@@ -12,26 +13,12 @@ bool repeats(int wrapping) { return wrapping == wrapRepeat || wrapping == wrapMi
 
 // Copies of the picture that a footprint of this half width meets, as (first, last).
 vec2 copies(int wrapping, float at, float halfWidth) {
-    return repeats(wrapping) ? vec2(floor(at - halfWidth), max(ceil(at + halfWidth) - 1.0, floor(at - halfWidth)))
-                             : vec2(0.0);
+    float first = floor(at - halfWidth);
+    return mix(vec2(0.0), vec2(first, max(ceil(at + halfWidth) - 1.0, first)), bvec2(repeats(wrapping)));
 }
 
 bool isMirrored(int wrapping, float copy) {
     return wrapping == wrapMirror && abs(copy - 2.0 * floor(copy * 0.5)) > 0.5;
-}
-
-void addPicture(Vtm vtm, CopyFootprint part, mat3x2 pixel, inout vec4 sum) {
-#if TEXT_PAGES
-    if (vtm.page != 0u) {
-        addPage(vtm, part, pixel, sum);
-        return;
-    }
-#endif
-#if INNER_MAPS
-    addMap(vtm, part, pixel, vtm.root, vtm.grid, sum);
-#else
-    addMap(vtm, part, pixel, vtm.root, 0u, sum);
-#endif
 }
 
 // Adds what the maps have of the footprint; gives up where no turns are left.
@@ -58,7 +45,7 @@ void addFootprint(Vtm vtm, Footprint footprint, inout vec4 sum) {
             mat3x2 pixel = mat3x2(footprint.sides[0], footprint.sides[1], picturePoint(vtm, st * scale + offset));
             addPicture(vtm, part, pixel, sum);
         }
-        copy = copy.x < s.y ? vec2(copy.x + 1.0, copy.y) : vec2(s.x, copy.y + 1.0);
+        copy = mix(vec2(s.x, copy.y + 1.0), vec2(copy.x + 1.0, copy.y), bvec2(copy.x < s.y));
         if (copy.y > t.y)
             break;
     }

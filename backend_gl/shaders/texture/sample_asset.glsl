@@ -1,6 +1,6 @@
 // An asset as a uniform: `uniform Vtm sign;`. backend_gl/texture/sampled_texture.cpp binds it.
 // Requires: IMAGE, INNER_MAPS, TEXT_PAGES, SAMPLED_TEXELS. Exports: Vtm; ASSET_IN, ASSET, ASSET_PART, SECTIONS, TEXEL_SIZE,
-// spend for fetch.glsl; nodesOf, placedOf, readNumbers; turnsLeft.
+// spend for fetch.glsl; nodesOf, placedOf, gridOf, readNumbers; turnsLeft.
 
 struct Vtm {
     usampler2D texels;     // all records
@@ -38,6 +38,14 @@ uvec3 placedOf = uvec3(0u);
 vec2 texelSize = vec2(0.0);
 #define SECTIONS sectionsOf
 #define TEXEL_SIZE texelSize
+
+uint gridOf(Vtm vtm) {
+#if INNER_MAPS
+    return vtm.grid;
+#else
+    return 0u;
+#endif
+}
 
 void readNumbers(Vtm vtm) {
     sectionsOf = vtm.sections;

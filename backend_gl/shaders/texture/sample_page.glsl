@@ -1,4 +1,4 @@
-// What a footprint has of a page of text: glyphs in the cells of a grid, whose maps are a font's. docs/fonts.md.
+// What a footprint has of a picture, or of a page of text: glyphs in the cells of a grid, whose maps are a font's. docs/fonts.md.
 // Requires: sample_asset.glsl, leaf_integral.glsl, placed_paints.glsl, sample_tree.glsl, sample_maps.glsl; TEXT_PAGES;
 // constant leafExtent.
 // Twin of: page_texels.cpp, which writes the texels. Lengths are in sides of the page's square, floats unless stated:
@@ -13,7 +13,7 @@
 //               centre of that square in its cell, unused; on pages of cells only
 //     cells     8 bits: symbol, 0 for none; or 32 bits: first glyph, 2^24 times the number of glyphs
 //     glyph     8 bytes: centre x and y in 24 bits each, over [-1/2, 3/2); symbol in the high bytes
-// Exports: addPage.
+// Exports: addPicture.
 
 #if TEXT_PAGES
 
@@ -100,28 +100,37 @@ bool nextGlyph(Vtm vtm, CopyFootprint around, PageLayer layer, uvec4 page, inout
     return found;
 }
 
+// A picture that is no page is met once, as it is: compilers inline addMap, so it stands in a program once.
 void addLayer(Vtm vtm, CopyFootprint around, mat3x2 pixel, PageLayer layer, uvec4 page, inout vec4 sum) {
     GlyphWalk walk = walkGlyphs(around, layer);
     CopyFootprint part = around;
-    uint root = 0u;
+    uint root = vtm.root, grid = onPage ? 0u : gridOf(vtm);
     while (spend(1.0)) {
-        if (nextGlyph(vtm, around, layer, page, walk, part, root))
-            addMap(vtm, part, pixel, root, 0u, sum);
-        if (isDone(walk))
+        bool found = !onPage;
+        if (onPage)
+            found = nextGlyph(vtm, around, layer, page, walk, part, root);
+        if (found)
+            addMap(vtm, part, pixel, root, grid, sum);
+        if (!onPage || isDone(walk))
             break;
     }
 }
 
-void addPage(Vtm vtm, CopyFootprint part, mat3x2 pixel, inout vec4 sum) {
-    uvec4 page = texelAt(vtm, vtm.page);
-    pageGround = uintBitsToFloat(texelAt(vtm, vtm.page + 1u));
-    if (pageGround.a > 0.0) {
-        vec2 extent = vtm.size / vtm.square.z;
-        Frame frame = Frame(part.toBox * mat2(extent.x, 0.0, 0.0, extent.y) * (1.0 / float(leafExtent)),
-                            part.toBox * -part.centre + 0.5);
-        sum += abs(squareArea(frame)) * pageGround;
+vec4 groundSum(Vtm vtm, CopyFootprint part) {
+    vec2 extent = vtm.size / vtm.square.z;
+    Frame frame = Frame(part.toBox * mat2(extent.x, 0.0, 0.0, extent.y) * (1.0 / float(leafExtent)),
+                        part.toBox * -part.centre + 0.5);
+    return abs(squareArea(frame)) * pageGround;
+}
+
+void addPicture(Vtm vtm, CopyFootprint part, mat3x2 pixel, inout vec4 sum) {
+    onPage = vtm.page != 0u;
+    uvec4 page = uvec4(1u, 0u, 0u, 0u);
+    if (onPage) {
+        page = texelAt(vtm, vtm.page);
+        pageGround = uintBitsToFloat(texelAt(vtm, vtm.page + 1u));
+        sum += groundSum(vtm, part);
     }
-    onPage = true;
     for (uint i = 0u; i < page.x && spend(1.0); ++i) {
         uint at = page.y + 4u * i;
         PageLayer layer = PageLayer(texelAt(vtm, at), texelAt(vtm, at + 3u), uintBitsToFloat(texelAt(vtm, at + 1u)),
@@ -131,6 +140,12 @@ void addPage(Vtm vtm, CopyFootprint part, mat3x2 pixel, inout vec4 sum) {
             break;
     }
     onPage = false;
+}
+
+#else
+
+void addPicture(Vtm vtm, CopyFootprint part, mat3x2 pixel, inout vec4 sum) {
+    addMap(vtm, part, pixel, vtm.root, gridOf(vtm), sum);
 }
 
 #endif

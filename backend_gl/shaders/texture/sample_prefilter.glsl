@@ -16,10 +16,10 @@ struct Footprint {
 // tan 2α = 2b / (a - c).
 vec2 turnToAxes(mat2 m) {
     float a = dot(m[0], m[0]), b = dot(m[0], m[1]), c = dot(m[1], m[1]);
-    vec2 twice = vec2(abs(a - c), a < c ? -2.0 * b : 2.0 * b);
+    vec2 twice = vec2(abs(a - c), mix(2.0 * b, -2.0 * b, a < c));
     float size = length(twice);
-    float cosine = size > 0.0 ? sqrt(0.5 + 0.5 * twice.x / size) : 1.0;
-    return vec2(cosine, size > 0.0 ? 0.5 * twice.y / (size * cosine) : 0.0);
+    float cosine = mix(1.0, sqrt(0.5 + 0.5 * twice.x / size), size > 0.0);
+    return vec2(cosine, mix(0.0, 0.5 * twice.y / (size * cosine), size > 0.0));
 }
 
 mat2 turned(mat2 m, vec2 turn) { return m * mat2(turn.x, turn.y, -turn.y, turn.x); }
@@ -53,9 +53,8 @@ Footprint footprintOf(Vtm vtm, vec2 st, vec2 dx, vec2 dy) {
         sides = turned(sides, turn);
         turn = vec2(1.0, 0.0);
         bool firstIsLonger = dot(sides[0], sides[0]) > dot(sides[1], sides[1]);
-        vec2 along = firstIsLonger ? sides[0] : sides[1];
-        vec2 across = vec2(-along.y, along.x) / maxAnisotropy;
-        sides = firstIsLonger ? mat2(along, across) : mat2(across, along);
+        vec2 along = mix(sides[1], sides[0], bvec2(firstIsLonger)), across = vec2(-along.y, along.x) / maxAnisotropy;
+        sides = mat2(mix(across, along, bvec2(firstIsLonger)), mix(along, across, bvec2(firstIsLonger)));
         axes.y = minimum;
     }
     // Clamp: the footprint's box stays inside the picture.
@@ -70,12 +69,14 @@ Footprint footprintOf(Vtm vtm, vec2 st, vec2 dx, vec2 dy) {
 
 // How much of the colour the prefilter gives, rising with the footprint.
 float prefilterShare(Footprint footprint) {
-    return footprint.wide ? 1.0 : clamp(log2(footprint.shorter / fadeFrom) / log2(fadeTo / fadeFrom), 0.0, 1.0);
+    float share = clamp(log2(footprint.shorter / fadeFrom) / log2(fadeTo / fadeFrom), 0.0, 1.0);
+    return footprint.wide ? 1.0 : share;
 }
 
 // Share of a bilinear tap that lies inside, where the picture is transparent beyond: texels of `size` a side.
 float inside(int wrapping, float st, float size) {
-    return wrapping == wrapBorder ? clamp(st * size + 0.5, 0.0, 1.0) * clamp((1.0 - st) * size + 0.5, 0.0, 1.0) : 1.0;
+    float share = clamp(st * size + 0.5, 0.0, 1.0) * clamp((1.0 - st) * size + 0.5, 0.0, 1.0);
+    return wrapping == wrapBorder ? share : 1.0;
 }
 
 // ⌊log2 x⌋ of a normal number, and 2^n, exactly.
@@ -85,7 +86,7 @@ float exp2i(int n) { return uintBitsToFloat(uint(127 + n) << 23); }
 // Distance of `count` taps over `length` texels, as a share of it: docs/prefilter.md.
 float tapSpacing(float length, float count, float texel) {
     float left = length * length - 2.0 * texel * texel;
-    return left > 0.0 && count > 1.0 ? sqrt(left / (count * count - 1.0)) / length : 0.0;
+    return mix(0.0, sqrt(left / (count * count - 1.0)) / length, left > 0.0 && count > 1.0);
 }
 
 vec4 prefiltered(Vtm vtm, Footprint footprint) {
@@ -114,7 +115,7 @@ vec4 prefiltered(Vtm vtm, Footprint footprint) {
         vec2 st = footprint.st + sides * ((tap - 0.5 * (count - 1.0)) * spacing);
         sum += textureLod(vtm.prefilter, st, lod) * inside(vtm.wrapping.x, st.x, levelTexels.x) *
                inside(vtm.wrapping.y, st.y, levelTexels.y);
-        tap = tap.x + 1.0 < count.x ? vec2(tap.x + 1.0, tap.y) : vec2(0.0, tap.y + 1.0);
+        tap = mix(vec2(0.0, tap.y + 1.0), vec2(tap.x + 1.0, tap.y), bvec2(tap.x + 1.0 < count.x));
         if (tap.y >= count.y)
             break;
     }

@@ -66,14 +66,17 @@ struct Walk {
 Walk walkFrom(uint root) { return Walk(root, uvec4(0u), uvec4(0u), uvec4(0u), ivec2(0), 0, 0, false); }
 
 uvec4 withNode(uvec4 nodes, int i, uint node) {
-    return uvec4(i == 0 ? node : nodes.x, i == 1 ? node : nodes.y, i == 2 ? node : nodes.z, i == 3 ? node : nodes.w);
+    uint a = nodes.x, b = nodes.y, c = nodes.z, d = nodes.w;
+    return uvec4(i == 0 ? node : a, i == 1 ? node : b, i == 2 ? node : c, i == 3 ? node : d);
 }
 
 // An index that is known only when the program runs would make some drivers store the lanes of a processor one by one.
 uint nodeAt(Walk walk, int level) {
-    uvec4 nodes = level <= 4 ? walk.nodes : level <= 8 ? walk.deeper : walk.deepest;
+    uvec4 first = walk.nodes, next = walk.deeper, last = walk.deepest;
+    uvec4 nodes = level <= 4 ? first : level <= 8 ? next : last;
+    uint a = nodes.x, b = nodes.y, c = nodes.z, d = nodes.w;
     int i = (level - 1) & 3;
-    return i == 0 ? nodes.x : i == 1 ? nodes.y : i == 2 ? nodes.z : nodes.w;
+    return i == 0 ? a : i == 1 ? b : i == 2 ? c : d;
 }
 
 // Goes down to the smallest square that holds the whole box.
@@ -113,7 +116,8 @@ bool advance(CopyFootprint part, inout Walk walk, out ivec2 cell, out float side
         walk.cell = max(cell * 4, first);
         ++walk.level;
     } else if (onward) {
-        walk.cell = along ? cell + ivec2(1, 0) : ivec2(max(firstCell(part, walk.level).x, cell.x & ~3), cell.y + 1);
+        ivec2 right = cell + ivec2(1, 0), below = ivec2(max(firstCell(part, walk.level).x, cell.x & ~3), cell.y + 1);
+        walk.cell = along ? right : below;
     } else {
         --walk.level;
         walk.cell >>= 2;

@@ -9,6 +9,8 @@ layout(location = 1) in vec2 origin;    // the tile's least corner, pixels
 layout(location = 2) in uvec3 texelsOf;
 // The least corner in picture coordinates; picture units a tile; tiles a cell.
 layout(location = 3) in vec4 picture;
+// Of a tile of two colours, the first pair's, as its texel has them.
+layout(location = 4) in uvec4 pairOf;
 
 uniform vec2 targetSize;
 uniform vec4 toTile;  // distances from pixels to tiles, by columns
@@ -19,6 +21,7 @@ flat out vec2 tileOrigin;
 flat out uvec3 tileTexels;
 flat out vec4 tilePicture;
 flat out vec4 pixelToTile, tileToBox;
+flat out uvec4 tilePair;
 
 void main() {
     gl_Position = vec4(position / targetSize * 2.0 - 1.0, 0.0, 1.0);
@@ -27,4 +30,5 @@ void main() {
     tilePicture = picture;
     pixelToTile = toTile;
     tileToBox = toBox;
+    tilePair = pairOf;
 }
