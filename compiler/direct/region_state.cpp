@@ -22,13 +22,11 @@ std::uint64_t hashOf(const glm::vec4& color) {
 
 RegionState::RegionState(const LoweredScene& picture)
     : picture_(picture),
-      painter_(picture),
       layers_(picture.layers.size()),
       shades_(picture.layers.size()),
       translucent_(picture.groups.size(), noIndex),
       inside_(picture.layers.size() / 64 + 1),
-      filled_(inside_.size() / 64 + 1),
-      flags_(picture.layers.size()) {
+      filled_(inside_.size() / 64 + 1) {
     for (std::uint32_t l = 0; l < layers_.size(); ++l) {
         layers_[l].mask = picture.layers[l].rule == scene::FillRule::EvenOdd ? 1 : -1;
         layers_[l].name = hashValue(l);
@@ -171,26 +169,34 @@ RegionPaint RegionState::colorNumber(const glm::vec4& color) {
     return number;
 }
 
-/// Of a deep stack, what no light comes through is left out.
-RegionPaint RegionState::computeAny(Region& region) {
-    constexpr std::size_t deep = 8;
+/// Lists the items that show, from the bottom, and says what they are. Of a stack of more than `deep`, what
+/// no light comes through is left out.
+RegionState::Listed RegionState::listItems(std::size_t deep, Region& region) {
     list_.clear();
     LightBelow below;
+    Listed listed;
     forEachFromTop([&](std::uint32_t layer) {
-        const bool isUnseen = below.light() <= unseen && list_.size() >= deep;
-        if (isUnseen && !isOfClip(layer))
+        const Shade& shade = shades_[layer];
+        if (shade.kind == Shade::None || isClippedAway(layer))
             return true;
-        list_.push_back(layer);
-        flags_[layer] = 1;
-        below.add(shades_[layer].cover);
-        if (!isUnseen && below.light() <= unseen && list_.size() >= deep)
-            region.hidden = layer;
-        return true;
+        list_.push_back(picture_.itemOfLayer[layer]);
+        listed.areColors = listed.areColors && shade.instruction.op == asset::Op::Solid;
+        listed.areLaidOver = listed.areLaidOver && shade.isLaidOver && shade.group == noIndex;
+        below.add(shade.cover);
+        if (below.light() > unseen || list_.size() < deep)
+            return true;
+        region.hidden = layer;
+        return false;
     });
-    std::reverse(list_.begin(), list_.end());
-    const PaintId id = painter_.paint(list_, flags_, palette_);
-    for (const std::uint32_t layer : list_)
-        flags_[layer] = 0;
+    std::ranges::reverse(list_);
+    return listed;
+}
+
+RegionPaint RegionState::computeAny(Region& region) {
+    constexpr std::size_t deep = 8;
+    if (listItems(deep, region).areColors)
+        return colorNumber(compositeColors(picture_, list_));
+    const PaintId id = palette_.add(compositeItems(picture_, list_));
     if (ofPalette_.size() <= id)
         ofPalette_.resize(id + 1, NumberMap::unknown);
     RegionPaint& paint = ofPalette_[id];
@@ -211,33 +217,22 @@ Region RegionState::regionOfPixels(glm::vec4& color, std::vector<PaintStep>& ste
     if (stackSolids(color, region))
         return region;
     color = glm::vec4(0);
-    region = {.paint = programBit};
-    list_.clear();
-    LightBelow below;
-    bool isPlain = true;
-    forEachFromTop([&](std::uint32_t layer) {
-        const Shade& shade = shades_[layer];
-        if (shade.kind == Shade::None || isClippedAway(layer))
-            return true;
-        list_.push_back(layer);
-        isPlain = isPlain && shade.isLaidOver && shade.group == noIndex;
-        below.add(shade.cover);
-        if (below.light() > unseen)
-            return true;
-        region.hidden = layer;
-        return false;
-    });
-    std::ranges::reverse(list_);
-    if (!isPlain) {
-        for (std::uint32_t& item : list_)
-            item = picture_.itemOfLayer[item];
+    region = {};
+    const Listed listed = listItems(0, region);
+    if (listed.areColors) {
+        color = compositeColors(picture_, list_);
+        return region;
+    }
+    region.paint = programBit;
+    if (!listed.areLaidOver) {
         const PaintProgram program = compositeItems(picture_, list_);
         steps.insert(steps.end(), program.begin(), program.end());
         return region;
     }
-    for (const std::uint32_t layer : list_) {
-        const glm::vec4& c = shades_[layer].color;
-        steps.push_back({shades_[layer].instruction, {c.x, c.y, c.z, c.w}});
+    for (const std::uint32_t item : list_) {
+        const Shade& shade = shades_[picture_.items[item].layer];
+        const glm::vec4& c = shade.color;
+        steps.push_back({shade.instruction, {c.x, c.y, c.z, c.w}});
     }
     return region;
 }

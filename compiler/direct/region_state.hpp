@@ -11,7 +11,6 @@
 #include "compiler/containers/number_map.hpp"
 #include "compiler/direct/layer_cover.hpp"
 #include "compiler/lower/lowered_scene.hpp"
-#include "compiler/paint/painters.hpp"
 #include "compiler/paint/palette.hpp"
 
 namespace vtm::compiler {
@@ -123,6 +122,11 @@ private:
         float light = 1;  ///< what is left of what lies below
     };
 
+    struct Listed {
+        bool areColors = true;
+        bool areLaidOver = true;  ///< one by one
+    };
+
     void toggle(std::uint32_t layer, std::uint64_t name) {
         key_ ^= name;
         inside_[layer / 64] ^= std::uint64_t{1} << layer % 64;
@@ -139,9 +143,9 @@ private:
     void openUpTo(std::uint32_t group);
     RegionPaint colorNumber(const glm::vec4& color);
     RegionPaint computeAny(Region& region);
+    Listed listItems(std::size_t deep, Region& region);
 
     const LoweredScene& picture_;
-    PicturePainter painter_;
     std::vector<LayerState> layers_;
     std::vector<Shade> shades_;               ///< by layer
     std::vector<std::uint32_t> translucent_;  ///< by group: the innermost round it and with it
@@ -157,9 +161,8 @@ private:
     std::vector<PaintProgram> programs_;
     std::size_t programSteps_ = 0;        ///< in all of them
     std::vector<RegionPaint> ofPalette_;  ///< by paint of the palette
-    std::vector<std::uint32_t> list_;
+    std::vector<std::uint32_t> list_;     ///< items
     bool hasPrograms_ = false;
-    std::vector<std::uint8_t> flags_;
 };
 
 }  // namespace vtm::compiler

@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include <glm/vec4.hpp>
+
 #include "compiler/lower/lowered_scene.hpp"
 #include "compiler/paint/palette.hpp"
 
@@ -20,6 +22,8 @@ PaintId composite(const LoweredScene& picture, std::span<const std::uint32_t> it
 
 /// The paint of exactly the given items (ascending), clips aside.
 PaintProgram compositeItems(const LoweredScene& picture, std::span<const std::uint32_t> items);
+/// The same of items that are colours.
+glm::vec4 compositeColors(const LoweredScene& picture, std::span<const std::uint32_t> items);
 
 /// By group: whether it or one round it has a clip.
 std::vector<std::uint8_t> clippedGroups(const LoweredScene& picture);
