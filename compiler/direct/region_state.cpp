@@ -44,13 +44,12 @@ RegionState::RegionState(const LoweredScene& picture)
     for (const LoweredItem& item : picture.items) {
         const Source& source = picture.sources[item.source];
         Shade& shade = shades_[item.layer];
-        shade.kind = isLaidOver[item.group] && source.op == asset::Op::Solid ? Shade::Solid : Shade::Other;
+        shade.isColor = source.op == asset::Op::Solid;
+        shade.kind = isLaidOver[item.group] && shade.isColor ? Shade::Solid : Shade::Other;
         hasPrograms_ = hasPrograms_ || shade.kind == Shade::Other;
         shade.isLaidOver = isLaidOver[item.group] != 0;
         shade.isClipped = isClipped[item.group] != 0;
         shade.group = translucent_[item.group];
-        const bool isColor = source.op == asset::Op::Solid;
-        shade.instruction = {source.op, asset::Blend::Normal, isColor ? 1 : item.opacity, source.data};
         const auto& c = source.color;
         shade.color = item.opacity * glm::vec4(c[0], c[1], c[2], c[3]);
         shade.cover = covers[item.layer];
@@ -169,19 +168,19 @@ RegionPaint RegionState::colorNumber(const glm::vec4& color) {
     return number;
 }
 
-/// Lists the items that show, from the bottom, and says what they are. Of a stack of more than `deep`, what
-/// no light comes through is left out.
-RegionState::Listed RegionState::listItems(std::size_t deep, Region& region) {
+/// Lists the items that show, from the bottom. Of a deep stack, what no light comes through is left out.
+/// Returns whether all are colours.
+bool RegionState::listItems(Region& region) {
+    constexpr std::size_t deep = 8;
     list_.clear();
     LightBelow below;
-    Listed listed;
+    bool areColors = true;
     forEachFromTop([&](std::uint32_t layer) {
         const Shade& shade = shades_[layer];
         if (shade.kind == Shade::None || isClippedAway(layer))
             return true;
         list_.push_back(picture_.itemOfLayer[layer]);
-        listed.areColors = listed.areColors && shade.instruction.op == asset::Op::Solid;
-        listed.areLaidOver = listed.areLaidOver && shade.isLaidOver && shade.group == noIndex;
+        areColors = areColors && shade.isColor;
         below.add(shade.cover);
         if (below.light() > unseen || list_.size() < deep)
             return true;
@@ -189,12 +188,11 @@ RegionState::Listed RegionState::listItems(std::size_t deep, Region& region) {
         return false;
     });
     std::ranges::reverse(list_);
-    return listed;
+    return areColors;
 }
 
 RegionPaint RegionState::computeAny(Region& region) {
-    constexpr std::size_t deep = 8;
-    if (listItems(deep, region).areColors)
+    if (listItems(region))
         return colorNumber(compositeColors(picture_, list_));
     const PaintId id = palette_.add(compositeItems(picture_, list_));
     if (ofPalette_.size() <= id)
@@ -212,28 +210,9 @@ RegionPaint RegionState::computeAny(Region& region) {
     return paint = RegionPaint(programs_.size() - 1) | programBit;
 }
 
-Region RegionState::regionOfPixels(glm::vec4& color, std::vector<PaintStep>& steps) {
+Region RegionState::regionOfPixels(glm::vec4& color) {
     Region region;
-    if (stackSolids(color, region))
-        return region;
-    color = glm::vec4(0);
-    region = {};
-    const Listed listed = listItems(0, region);
-    if (listed.areColors) {
-        color = compositeColors(picture_, list_);
-        return region;
-    }
-    region.paint = programBit;
-    if (!listed.areLaidOver) {
-        const PaintProgram program = compositeItems(picture_, list_);
-        steps.insert(steps.end(), program.begin(), program.end());
-        return region;
-    }
-    for (const std::uint32_t item : list_) {
-        const Shade& shade = shades_[picture_.items[item].layer];
-        const glm::vec4& c = shade.color;
-        steps.push_back({shade.instruction, {c.x, c.y, c.z, c.w}});
-    }
+    stackSolids(color, region);
     return region;
 }
 

@@ -59,9 +59,9 @@ public:
         }
         return regions_[number];
     }
-    /// The same of a region of a few pixels, which is not remembered: sets its colour, or appends the steps
-    /// of its program to `steps`; then its paint is `programBit`.
-    Region regionOfPixels(glm::vec4& color, std::vector<PaintStep>& steps);
+    /// The same of a region of a few pixels, whose colour is set and not remembered. Not if there are
+    /// programs.
+    Region regionOfPixels(glm::vec4& color);
     /// Of another set; null if it was not asked for before. Valid until the next is asked for.
     const Region* known(std::uint64_t key) const {
         const std::uint32_t number = known_.at(key);
@@ -75,6 +75,13 @@ public:
     bool isOfClip(std::uint32_t layer) const { return shades_[layer].kind == Shade::None; }
     bool isInside(std::uint32_t layer, std::int32_t winding) const {
         return layers_[layer].isInside(winding);
+    }
+    /// Whether an item's layer is inside, and inside its clips.
+    bool isShown(std::uint32_t layer) const { return isInside(layer) && !isClippedAway(layer); }
+    bool isClipped(std::uint32_t layer) const { return shades_[layer].isClipped; }
+    /// Whether it is laid over what is below it, alone.
+    bool isLaidOver(std::uint32_t layer) const {
+        return shades_[layer].isLaidOver && shades_[layer].group == noIndex;
     }
     /// Whether a layer is only where its winding number is odd.
     bool isEvenOdd(std::uint32_t layer) const { return layers_[layer].mask == 1; }
@@ -112,7 +119,7 @@ private:
         bool isLaidOver = false;        ///< in no group but such
         std::uint32_t group = noIndex;  ///< the innermost that is translucent
         glm::vec4 color{0};             ///< with its opacity
-        asset::Instruction instruction;
+        bool isColor = false;
         LayerCover cover;
     };
     /// A translucent group that is composited, from the top.
@@ -120,11 +127,6 @@ private:
         std::uint32_t group;
         glm::vec4 color{0};
         float light = 1;  ///< what is left of what lies below
-    };
-
-    struct Listed {
-        bool areColors = true;
-        bool areLaidOver = true;  ///< one by one
     };
 
     void toggle(std::uint32_t layer, std::uint64_t name) {
@@ -143,7 +145,7 @@ private:
     void openUpTo(std::uint32_t group);
     RegionPaint colorNumber(const glm::vec4& color);
     RegionPaint computeAny(Region& region);
-    Listed listItems(std::size_t deep, Region& region);
+    bool listItems(Region& region);
 
     const LoweredScene& picture_;
     std::vector<LayerState> layers_;

@@ -112,11 +112,6 @@ private:
     }
 };
 
-// The asset's modes are numbered like the scene's: they are cast, not looked up.
-static_assert(static_cast<int>(asset::Blend::PlusLighter) ==
-                  static_cast<int>(scene::BlendMode::PlusLighter) &&
-              static_cast<int>(asset::Blend::HardLight) == static_cast<int>(scene::BlendMode::HardLight));
-
 /// Of a mask.
 Op popOf(GroupRole role) {
     return role == GroupRole::AlphaMask       ? Op::PopMaskAlpha
@@ -169,7 +164,7 @@ private:
             return;
         }
         const bool normal = group.blend == scene::BlendMode::Normal || parent.steps.empty();
-        const auto mode = normal ? asset::Blend::Normal : static_cast<asset::Blend>(group.blend);
+        const auto mode = normal ? asset::Blend::Normal : blendOf(group.blend);
         if (normal && child.constant()) {
             parent.solid(scaled(child.color(), opacity));
         } else if (child.constant() && parent.constant()) {
@@ -216,11 +211,11 @@ public:
         frames_.pop_back();
         glm::vec4& parent = frames_.back();
         if (group.role != GroupRole::Plain)
-            parent *= asset::maskFactor(popOf(group.role), child);
+            parent *= maskFactor(group.role, child);
         else if (group.blend == scene::BlendMode::Normal)
             parent = asset::over(group.opacity * child, parent);
         else
-            parent = asset::blend(static_cast<asset::Blend>(group.blend), group.opacity * child, parent);
+            parent = asset::blend(blendOf(group.blend), group.opacity * child, parent);
     }
 
     const glm::vec4& result() const { return frames_.front(); }
@@ -241,7 +236,16 @@ C composited(const LoweredScene& picture, std::span<const std::uint32_t> items) 
     return compositor;
 }
 
+// The asset's modes are numbered like the scene's: they are cast, not looked up.
+static_assert(static_cast<int>(asset::Blend::PlusLighter) ==
+                  static_cast<int>(scene::BlendMode::PlusLighter) &&
+              static_cast<int>(asset::Blend::HardLight) == static_cast<int>(scene::BlendMode::HardLight));
+
 }  // namespace
+
+float maskFactor(GroupRole role, const glm::vec4& mask) { return asset::maskFactor(popOf(role), mask); }
+
+asset::Blend blendOf(scene::BlendMode mode) { return static_cast<asset::Blend>(mode); }
 
 std::vector<std::uint8_t> clippedGroups(const LoweredScene& picture) {
     std::vector<std::uint8_t> clipped(picture.groups.size());
