@@ -31,11 +31,13 @@ Float4 laidOver(const LoweredGroup& group, Float4 source, Float4 below) {
 
 }  // namespace
 
-/// Composites parts from the bottom, with their groups round them.
+/// Composites layers from the bottom, with their groups round them.
 template <std::size_t quarters>
 class PixelColors::Groups {
 public:
-    explicit Groups(const LoweredScene& picture) : picture_(picture), walk_(picture, *this), open_(1) {}
+    /// `outer`: by group; those without one are no more than their layers.
+    Groups(const LoweredScene& picture, std::span<const std::uint32_t> outer, const Quarters& below)
+        : picture_(picture), outer_(outer), walk_(picture, *this), open_(1, below) {}
 
     void add(const LoweredItem& item, const Quarters& colors) {
         colors_ = &colors;
@@ -46,7 +48,10 @@ public:
         return open_.front();
     }
 
-    void open(std::uint32_t) { open_.emplace_back(); }
+    void open(std::uint32_t group) {
+        if (outer_[group] != noIndex)
+            open_.emplace_back();
+    }
     void item(const LoweredItem&) {
         Quarters& below = open_.back();
         for (std::size_t i = 0; i < quarters; ++i)
@@ -54,6 +59,8 @@ public:
     }
     void emptyMask(std::uint32_t) { open_.back() = {}; }
     void close(std::uint32_t group) {
+        if (outer_[group] == noIndex)
+            return;
         const Quarters source = open_.back();
         open_.pop_back();
         for (std::size_t i = 0; i < quarters; ++i)
@@ -62,6 +69,7 @@ public:
 
 private:
     const LoweredScene& picture_;
+    const std::span<const std::uint32_t> outer_;
     ItemWalk<Groups> walk_;
     std::vector<Quarters> open_;
     const Quarters* colors_ = nullptr;
@@ -74,9 +82,10 @@ void PixelColors::beginRow(int row) {
     for (Pixel& pixel : pixels_) {
         pixel.layers.clear();
         pixel.parts.clear();
+        pixel.colors.clear();
         pixel.below = {};
         pixel.isSteep = false;
-        pixel.isLaidOver = true;
+        pixel.isBlended = false;
         pixel.known.fill({});
     }
 }
@@ -86,7 +95,7 @@ void PixelColors::add(const RegionState& state, std::uint32_t layer, std::int32_
     if (state.isOfClip(layer))
         return;
     const LayerCover& cover = state.cover(layer);
-    const Source& source = sourceOf(layer);
+    const Source& source = picture_.sources[itemOf(layer).source];
     const bool isSteep = source.op != asset::Op::Solid && sources_->isSteep[source.data] != 0;
     inParts = inParts || state.isClipped(layer);
     end = std::min(end, std::int32_t(pixels_.size()));
@@ -96,7 +105,6 @@ void PixelColors::add(const RegionState& state, std::uint32_t layer, std::int32_
             continue;
         pixel.layers.push_back({layer, inParts});
         pixel.isSteep = pixel.isSteep || isSteep;
-        pixel.isLaidOver = pixel.isLaidOver && state.isLaidOver(layer);
         if (!inParts)
             pixel.below.add(cover);
     }
@@ -107,7 +115,7 @@ glm::vec4 PixelColors::color(const RegionState& state, const PixelPlace& place) 
     Known& known = pixel.known[state.key() % pixel.known.size()];
     if (known.key != state.key()) {
         if (pixel.parts.empty())
-            divide(state, pixel);
+            divide(pixel);
         known = {state.key(),
                  pixel.isSteep ? composite<4>(state, pixel, place.x) : composite<1>(state, pixel, place.x)};
     }
@@ -120,17 +128,36 @@ glm::vec4 PixelColors::color(const RegionState& state, const PixelPlace& place) 
     return vectorOf(upper + middle.y * (lower - upper));
 }
 
-void PixelColors::divide(const RegionState& state, Pixel& pixel) const {
-    bool goesOn = false;
-    for (std::uint32_t i = 0; i < pixel.layers.size(); ++i) {
-        const auto [layer, inParts] = pixel.layers[i];
-        const bool isPlain = !inParts && state.isLaidOver(layer);
-        if (goesOn && isPlain)
-            pixel.parts.back().end = i + 1;
-        else
-            pixel.parts.push_back({i, i + 1, false, {}});
-        goesOn = isPlain;
+void PixelColors::divide(Pixel& pixel) const {
+    const std::vector<Listed>& layers = pixel.layers;
+    const auto count = std::uint32_t(layers.size());
+    for (std::uint32_t i = 0, end; i < count; i = end) {
+        const std::uint32_t outer = outerOf(layers[i].layer);
+        bool isWhole = true;
+        for (end = i; end == i || (end < count && outer != noIndex && outerOf(layers[end].layer) == outer);
+             ++end)
+            isWhole = isWhole && !layers[end].inParts;
+        const auto isRun = [](const Part& each) { return each.isWhole && !each.isBlended; };
+        const bool hasGroups = outer != noIndex;
+        const Part part{i, end, hasGroups, isWhole, !isWhole && !hasGroups, isBlended(outer)};
+        if (!pixel.parts.empty() && isRun(pixel.parts.back()) && isRun(part)) {
+            pixel.parts.back().end = end;
+            pixel.parts.back().hasGroups = pixel.parts.back().hasGroups || hasGroups;
+        } else {
+            pixel.parts.push_back(part);
+        }
+        pixel.isBlended = pixel.isBlended || part.isBlended;
     }
+    // There is nothing below the lowest one.
+    std::vector<Part>& parts = pixel.parts;
+    while (parts.size() > 1 && parts.back().isWhole && parts[parts.size() - 2].isWhole) {
+        const bool hasGroups = parts.back().hasGroups;
+        parts.pop_back();
+        parts.back().end = count;
+        parts.back().hasGroups = parts.back().hasGroups || hasGroups;
+    }
+    if (!parts.empty() && parts.back().isWhole)
+        parts.back().isBlended = false;
 }
 
 template <std::size_t quarters, class Next>
@@ -154,27 +181,40 @@ PixelColors::Quarters PixelColors::stacked(Next next) {
 
 template <std::size_t quarters>
 PixelColors::Quarters PixelColors::composite(const RegionState& state, Pixel& pixel, int x) const {
-    const auto shows = [&](const Part& part) {
-        const Listed& first = pixel.layers[part.first];
-        return !first.inParts || state.isShown(first.layer);
+    const auto isShown = [&](const Part& part) {
+        return !part.isAlone || state.isShown(pixel.layers[part.first].layer);
     };
-    if (pixel.isLaidOver)
+    if (!pixel.isBlended)
         return stacked<quarters>([&, at = std::size_t{0}]() mutable -> const Quarters* {
-            while (at < pixel.parts.size() && !shows(pixel.parts[at]))
+            while (at < pixel.parts.size() && !isShown(pixel.parts[at]))
                 ++at;
-            return at < pixel.parts.size() ? &colorsOf<quarters>(pixel, pixel.parts[at++], x) : nullptr;
+            return at < pixel.parts.size() ? &colorsOf<quarters>(state, pixel, pixel.parts[at++], x)
+                                           : nullptr;
         });
-    Groups<quarters> groups(picture_);
-    for (std::size_t i = pixel.parts.size(); i-- > 0;)
-        if (Part& part = pixel.parts[i]; shows(part))
-            groups.add(picture_.items[picture_.itemOfLayer[pixel.layers[part.first].layer]],
-                       colorsOf<quarters>(pixel, part, x));
-    return groups.finish();
+    Quarters sum{};
+    for (std::size_t p = pixel.parts.size(); p-- > 0;) {
+        Part& part = pixel.parts[p];
+        if (part.isBlended) {
+            sum = inGroups<quarters>(state, pixel, part, x, sum);
+        } else if (isShown(part)) {
+            const Quarters& colors = colorsOf<quarters>(state, pixel, part, x);
+            for (std::size_t i = 0; i < quarters; ++i)
+                sum[i] = over(colors[i], sum[i]);
+        }
+    }
+    return sum;
 }
 
+/// Of a part that is laid over what lies below it.
 template <std::size_t quarters>
-const PixelColors::Quarters& PixelColors::colorsOf(Pixel& pixel, Part& part, int x) const {
-    if (!std::exchange(part.isKnown, true))
+const PixelColors::Quarters& PixelColors::colorsOf(const RegionState& state, Pixel& pixel, Part& part,
+                                                   int x) const {
+    if (part.isKnown)
+        return part.colors;
+    part.isKnown = part.isWhole || part.isAlone;
+    if (part.hasGroups)
+        part.colors = inGroups<quarters>(state, pixel, part, x, {});
+    else
         part.colors =
             stacked<quarters>([&, at = part.first, colors = Quarters{}]() mutable -> const Quarters* {
                 if (at == part.end)
@@ -185,8 +225,27 @@ const PixelColors::Quarters& PixelColors::colorsOf(Pixel& pixel, Part& part, int
     return part.colors;
 }
 
+/// Of layers in groups, laid over or blended with what is below.
+template <std::size_t quarters>
+PixelColors::Quarters PixelColors::inGroups(const RegionState& state, Pixel& pixel, const Part& part, int x,
+                                            const Quarters& below) const {
+    Groups<quarters> groups(picture_, sources_->outer, below);
+    for (std::uint32_t i = part.end; i-- > part.first;) {
+        Listed& listed = pixel.layers[i];
+        if (listed.inParts && !state.isShown(listed.layer))
+            continue;
+        if (listed.known == noIndex) {
+            listed.known = std::uint32_t(pixel.colors.size());
+            pixel.colors.push_back(colorsOf(listed.layer, x, quarters > 1));
+        }
+        groups.add(itemOf(listed.layer), pixel.colors[listed.known]);
+    }
+    return groups.finish();
+}
+
 PixelColors::Quarters PixelColors::colorsOf(std::uint32_t layer, int x, bool inQuarters) const {
-    const Source& source = sourceOf(layer);
+    const LoweredItem& item = itemOf(layer);
+    const Source& source = picture_.sources[item.source];
     Quarters colors;
     if (source.op == asset::Op::Solid) {
         colors.fill(std::bit_cast<Float4>(source.color));
@@ -198,9 +257,8 @@ PixelColors::Quarters PixelColors::colorsOf(std::uint32_t layer, int x, bool inQ
         else
             colors.fill(std::bit_cast<Float4>(pixels.color(paint, x, row_)));
     }
-    const float opacity = picture_.items[picture_.itemOfLayer[layer]].opacity;
     for (Float4& color : colors)
-        color *= opacity;
+        color *= item.opacity;
     return colors;
 }
 
@@ -222,7 +280,27 @@ void PixelColors::make() {
     for (const Source& source : picture_.sources)
         if (source.op != asset::Op::Solid)
             sources_->isSteep[source.data] = sources_->pixels->isSteep(sources_->paints[source.data]);
+    findOuter();
     pixels_.resize(std::size_t(view_.width));
+}
+
+void PixelColors::findOuter() {
+    const std::vector<LoweredGroup>& groups = picture_.groups;
+    std::vector<std::uint32_t>& outer = sources_->outer;
+    outer.assign(groups.size(), noIndex);
+    // What is blended sees only what is in the group round it; nothing is below the root.
+    for (std::uint32_t g = 0; g < groups.size(); ++g)
+        if (const std::uint32_t parent = groups[g].parent;
+            groups[g].blend != scene::BlendMode::Normal && parent != noIndex && groups[parent].depth > 1)
+            outer[parent] = parent;
+    for (std::uint32_t g = 0; g < groups.size(); ++g) {  // parents come first
+        const LoweredGroup& group = groups[g];
+        if (group.parent != noIndex && outer[group.parent] != noIndex)
+            outer[g] = outer[group.parent];
+        else if (group.role != GroupRole::Plain || group.opacity < 1 ||
+                 group.blend != scene::BlendMode::Normal || group.mask != noIndex)
+            outer[g] = g;
+    }
 }
 
 }  // namespace vtm::compiler

@@ -52,15 +52,21 @@ private:
     using Float4 = float __attribute__((vector_size(16)));
     /// Of a pixel's quarters, by rows; or the first for all.
     using Quarters = std::array<Float4, 4>;
-    /// Layers that are inside all over a pixel and laid over each other, or any other one.
-    struct Part {
-        std::uint32_t first, end;  ///< of the pixel's layers
-        bool isKnown = false;
-        Quarters colors;
-    };
     struct Listed {
         std::uint32_t layer;
         bool inParts;
+        std::uint32_t known = noIndex;  ///< of the pixel's colours
+    };
+    /// A layer, or those of a group that is more than its layers; or a run of such that are inside all over a
+    /// pixel and laid over each other, and do not divide it.
+    struct Part {
+        std::uint32_t first, end;  ///< of the pixel's layers
+        bool hasGroups;
+        bool isWhole;          ///< it divides nothing
+        bool isAlone;          ///< a layer that does
+        bool isBlended;        ///< with what lies below it
+        bool isKnown = false;  ///< its colours: the same in all regions
+        Quarters colors{};
     };
     /// A region's.
     struct Known {
@@ -70,30 +76,40 @@ private:
     struct Pixel {
         std::vector<Listed> layers;  ///< from the top
         std::vector<Part> parts;     ///< from the top; none until it is asked
+        std::vector<Quarters> colors;
         LightBelow below;
         bool isSteep = false;        ///< one of the layers
-        bool isLaidOver = true;      ///< each of them, one by one
+        bool isBlended = false;      ///< one of the parts
         std::array<Known, 8> known;  ///< that were asked for last
     };
-    /// Of the picture's sources.
+    /// Of the picture's sources and groups.
     struct Sources {
         asset::Asset asset;
         std::vector<std::uint32_t> paints;  ///< by texel of the picture's data
         std::vector<std::uint8_t> isSteep;  ///< so too
         std::optional<asset::PixelPaints> pixels;
+        std::vector<std::uint32_t> outer;  ///< by group: the outermost that is more than its layers
     };
     template <std::size_t quarters>
     class Groups;
 
     void make();
-    const Source& sourceOf(std::uint32_t layer) const {
-        return picture_.sources[picture_.items[picture_.itemOfLayer[layer]].source];
+    void findOuter();
+    const LoweredItem& itemOf(std::uint32_t layer) const {
+        return picture_.items[picture_.itemOfLayer[layer]];
     }
-    void divide(const RegionState& state, Pixel& pixel) const;
+    std::uint32_t outerOf(std::uint32_t layer) const { return sources_->outer[itemOf(layer).group]; }
+    bool isBlended(std::uint32_t outer) const {
+        return outer != noIndex && picture_.groups[outer].blend != scene::BlendMode::Normal;
+    }
+    void divide(Pixel& pixel) const;
     template <std::size_t quarters>
     Quarters composite(const RegionState& state, Pixel& pixel, int x) const;
     template <std::size_t quarters>
-    const Quarters& colorsOf(Pixel& pixel, Part& part, int x) const;
+    const Quarters& colorsOf(const RegionState& state, Pixel& pixel, Part& part, int x) const;
+    template <std::size_t quarters>
+    Quarters inGroups(const RegionState& state, Pixel& pixel, const Part& part, int x,
+                      const Quarters& below) const;
     Quarters colorsOf(std::uint32_t layer, int x, bool inQuarters) const;
     /// Lays what next() gives under each other, until it gives null or no light is left.
     template <std::size_t quarters, class Next>
