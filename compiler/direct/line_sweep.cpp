@@ -617,8 +617,12 @@ void LineSweep::crossInPixels(std::span<const Seen> chains, const Step& step, fl
         state_.cross(seen.layer, winding);
         return state_.key() != key;
     };
+    std::uint32_t hidden = state_.hiddenByFew();
     for (const Seen& seen : chains)
         if (seen.isAtMiddle && cross(seen, seen.winding)) {
+            if (seen.layer < hidden && !state_.isOfClip(seen.layer))
+                continue;
+            hidden = state_.hiddenByFew();
             Change next{&seen};
             if (!changes_.empty()) {
                 next.isCrossed = changes_.back().crosses(seen);

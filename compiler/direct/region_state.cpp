@@ -85,6 +85,21 @@ void RegionState::forEachFromTop(Visit&& visit) const {
         }
 }
 
+std::uint32_t RegionState::hiddenByFew() const {
+    constexpr int few = 16;
+    LightBelow below;
+    std::uint32_t hidden = 0;
+    int looked = 0;
+    forEachFromTop([&](std::uint32_t layer) {
+        if (shades_[layer].kind != Shade::None && !isClippedAway(layer))
+            below.add(shades_[layer].cover);
+        if (below.light() <= unseen)
+            hidden = layer;
+        return hidden == 0 && ++looked < few;
+    });
+    return hidden;
+}
+
 /// By a clip of a group round it.
 bool RegionState::isClippedAway(std::uint32_t layer) const {
     return shades_[layer].isClipped &&

@@ -71,6 +71,8 @@ public:
     bool isHidden(std::uint32_t layer, const Region& by) const {
         return layer < by.hidden && shades_[layer].kind != Shade::None;
     }
+    /// Items' layers below this one do not matter, as far as a few of the topmost tell.
+    std::uint32_t hiddenByFew() const;
     const LayerCover& cover(std::uint32_t layer) const { return shades_[layer].cover; }
     bool isOfClip(std::uint32_t layer) const { return shades_[layer].kind == Shade::None; }
     bool isInside(std::uint32_t layer, std::int32_t winding) const {
