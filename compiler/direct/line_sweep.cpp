@@ -17,8 +17,10 @@ namespace {
 constexpr double cutsInRow = 200'000;
 /// And in smaller steps, a band.
 constexpr std::size_t smallCutsInBand = 16 * 100'000;
-/// A program in a pixel costs as much as so many chains.
-constexpr double programCost = 8;
+/// A region that is composited in a pixel costs as much as so many chains.
+constexpr double pixelCost = 8;
+/// A chain so near to a pixel may be in it.
+constexpr float nearPixel = 1.0f / 64;
 constexpr std::size_t mostSteps = 64, leastSteps = 2;
 /// So many times more steps are taken in a row in which all chains begin or end.
 constexpr double moreForEnds = 16;
@@ -79,7 +81,7 @@ LineSweep::LineSweep(const ViewChains& chains, RegionState& state, PixelColors& 
       width_(width),
       sums_(std::size_t(width) + 2),
       shares_(sums_.size()),
-      programSums_(sums_.size()),
+      pixelSums_(sums_.size()),
       squares_(std::size_t((width + 2) * squaresInAPixel + 2)) {}
 
 void LineSweep::run(std::span<const std::uint32_t> numbers, float top, float bottom,
@@ -122,16 +124,16 @@ void LineSweep::begin(std::span<const std::uint32_t> numbers) {
     isJudged_ = isTangled_ = false;
 }
 
-/// What a chain costs with the programs that a step of the row asks for.
+/// What a chain costs with the pixels that a step of the row asks for.
 void LineSweep::measure(float top, float bottom) {
     isMeasured_ = true;
-    programsAsked_ = 0;
+    pixelsAsked_ = 0;
     smallSteps_ = 0;
     drawn_ = top;
     draw({top, bottom, bottom - top});
     std::ranges::fill(sums_, glm::vec4(0));
-    std::ranges::fill(programSums_, glm::vec4(0));
-    costOfCut_ += programCost * double(programsAsked_) / double(cuts_.size() + 1);
+    std::ranges::fill(pixelSums_, glm::vec4(0));
+    costOfCut_ += pixelCost * double(pixelsAsked_) / double(cuts_.size() + 1);
     smallInBand_ = std::size_t(double(smallCutsInBand) / costOfCut_);
 }
 
@@ -151,13 +153,13 @@ void LineSweep::row(float top, float bottom) {
     if (isTangled_)
         return drawLines(top, bottom);
     hides_ = mayHide();
-    known_.clear();
-    regions_.clear();
-    programs_.clear();
-    programSteps_.clear();
     remembers_ = state_.hasPrograms() && !state_.remembersMuch();
-    if (!remembers_ && !isMeasured_)
-        measure(top, bottom);
+    isInPixels_ = state_.hasPrograms() && !remembers_;
+    if (isInPixels_) {
+        findLayersOfPixels(top, bottom);
+        if (!isMeasured_)
+            measure(top, bottom);
+    }
     const bool isByContent = findSteps(top, bottom);
     // A step may take several times its share of what the band may.
     const auto stepsLeft =
@@ -182,7 +184,7 @@ bool LineSweep::findSteps(float top, float bottom) {
     isArranged_ = false;
     order_.clear();
     findPieces(top, bottom);
-    const double ends = double(changes_.size()) / double(cuts_.size() + 1);
+    const double ends = double(contentChanges_.size()) / double(cuts_.size() + 1);
     const double most = cutsInRow / costOfCut_ / (meanCut_ + 1);
     const auto count = std::clamp(std::size_t(most * (1 + moreForEnds * ends)), leastSteps, mostSteps);
     steps_.clear();
@@ -196,7 +198,7 @@ bool LineSweep::findSteps(float top, float bottom) {
 
 /// Cuts the row where chains begin and end.
 void LineSweep::findPieces(float top, float bottom) {
-    changes_.clear();
+    contentChanges_.clear();
     pieces_.clear();
     std::uint64_t content = 0;
     for (const Cut& cut : cuts_) {
@@ -210,21 +212,21 @@ void LineSweep::findPieces(float top, float bottom) {
         const std::uint64_t own = hashValue(hashValue(cut.layer) + std::uint64_t(std::int64_t(cut.winding)) +
                                             hashValue(std::uint64_t(column)));
         if (begins)
-            changes_.push_back({cut.a.y, own});
+            contentChanges_.push_back({cut.a.y, own});
         else
             content += own;
         if (end < bottom)
-            changes_.push_back({end, 0 - own});
+            contentChanges_.push_back({end, 0 - own});
     }
-    std::ranges::sort(changes_, {}, &ContentChange::y);
-    for (std::size_t i = 0; i <= changes_.size(); ++i) {
-        const float next = i < changes_.size() ? changes_[i].y : bottom;
+    std::ranges::sort(contentChanges_, {}, &ContentChange::y);
+    for (std::size_t i = 0; i <= contentChanges_.size(); ++i) {
+        const float next = i < contentChanges_.size() ? contentChanges_[i].y : bottom;
         if (next > top) {
             pieces_.push_back({top, next, content});
             top = next;
         }
-        if (i < changes_.size())
-            content += changes_[i].content;
+        if (i < contentChanges_.size())
+            content += contentChanges_[i].content;
     }
 }
 
@@ -566,14 +568,17 @@ LineSweep::Shown LineSweep::cross(std::span<const Seen> chains, const Step& step
         });
         return {};
     }
+    if (isInPixels_) {
+        crossInPixels(chains, step, begin, end);
+        return {};
+    }
     // Of two chains next to each other the second often leads back.
     Shown before;
     std::uint64_t keyBefore = 0, key = state_.key();
     bool isKnown = false;
-    programLeft_ = {begin, begin};
     PaintChange last;
     const auto change = [&](const Seen& seen, const Shown& from, const Shown& to) {
-        PaintChange next{&seen, from, to};
+        PaintChange next{{&seen}, from, to};
         if (last.seen) {
             next.isCrossed = last.crosses(seen);
             last.isCrossed = last.isCrossed || next.isCrossed;
@@ -601,37 +606,88 @@ LineSweep::Shown LineSweep::cross(std::span<const Seen> chains, const Step& step
     }
     if (last.seen)
         add(last, step);
-    if (left.isProgram() && !remembers_)
-        addProgram(left, {end, end}, step);
     return left;
 }
 
-/// Programs are asked for once in a row.
-LineSweep::Shown LineSweep::regionHere() {
-    if (remembers_) {
-        Shown shown{state_.region(), {}};
-        if (!shown.isProgram())
-            shown.color = state_.colors()[std::exchange(shown.region.paint, 0)];
-        return shown;
+/// The same where paints are composited in each pixel.
+void LineSweep::crossInPixels(std::span<const Seen> chains, const Step& step, float begin, float end) {
+    changes_.clear();
+    const auto cross = [&](const Seen& seen, std::int32_t winding) {
+        const std::uint64_t key = state_.key();
+        state_.cross(seen.layer, winding);
+        return state_.key() != key;
+    };
+    std::uint32_t hidden = state_.hiddenByFew();
+    for (const Seen& seen : chains)
+        if (seen.isAtMiddle && cross(seen, seen.winding)) {
+            if (seen.layer < hidden && !state_.isOfClip(seen.layer))
+                continue;
+            hidden = state_.hiddenByFew();
+            Change next{&seen};
+            if (!changes_.empty()) {
+                next.isCrossed = changes_.back().crosses(seen);
+                changes_.back().isCrossed = changes_.back().isCrossed || next.isCrossed;
+            }
+            changes_.push_back(next);
+        }
+    for (const Seen& seen : chains)
+        if (seen.isAtMiddle)
+            cross(seen, -seen.winding);
+    Edge left{begin, begin};
+    auto change = changes_.begin();
+    for (const Seen& seen : chains) {
+        if (change != changes_.end() && change->seen == &seen) {
+            const Edge right = (change++)->edge();
+            addInPixels(left, right, step);
+            left = right;
+        }
+        if (seen.isAtMiddle)
+            cross(seen, seen.winding);
     }
-    if (!state_.hasPrograms())
-        return compute();
-    std::uint32_t& number = known_[state_.key()];
-    if (number == NumberMap::unknown) {
-        number = std::uint32_t(regions_.size());
-        regions_.push_back(compute());
-    }
-    return regions_[number];
+    addInPixels(left, {end, end}, step);
 }
 
-LineSweep::Shown LineSweep::compute() {
-    Shown shown;
-    const std::size_t first = programSteps_.size();
-    shown.region = state_.regionOfPixels(shown.color, programSteps_);
-    if (shown.isProgram()) {
-        shown.region.paint |= RegionPaint(programs_.size());
-        programs_.push_back({state_.key(), first, programSteps_.size()});
+/// Which are inside all over a pixel of the row, and which in parts of it.
+void LineSweep::findLayersOfPixels(float top, float bottom) {
+    limits::check();
+    const auto column = [&](float x) {
+        return std::int32_t(std::clamp(std::floor(x), -1.0f, float(width_)));
+    };
+    pixels_.beginRow(int(top));
+    for (std::size_t i = 0; i < cuts_.size();) {
+        const std::uint32_t layer = cuts_[i].layer;
+        touches_.clear();
+        for (; i < cuts_.size() && cuts_[i].layer == layer; ++i) {
+            Seen seen;
+            look(i, {top, bottom, bottom - top}, seen);
+            touches_.push_back({column(seen.left - nearPixel), column(seen.right + nearPixel), seen.winding});
+        }
+        sortStably(touches_.begin(), touches_.end(),
+                   [](const Touch& a, const Touch& b) { return a.first < b.first; });
+        std::int32_t winding = 0;
+        for (std::size_t k = 0; k < touches_.size();) {
+            const std::int32_t first = touches_[k].first;
+            std::int32_t end = first;
+            for (; k < touches_.size() && touches_[k].first <= end; ++k) {
+                end = std::max(end, touches_[k].last + 1);
+                winding += touches_[k].winding;
+            }
+            pixels_.add(state_, layer, first, end, true);
+            if (k < touches_.size() && state_.isInside(layer, winding))
+                pixels_.add(state_, layer, end, touches_[k].first, false);
+        }
     }
+}
+
+LineSweep::Shown LineSweep::regionHere() {
+    Shown shown;
+    if (!remembers_) {
+        shown.region = state_.regionOfPixels(shown.color);
+        return shown;
+    }
+    shown.region = state_.region();
+    if (!shown.isProgram())
+        shown.color = state_.colors()[std::exchange(shown.region.paint, 0)];
     return shown;
 }
 
@@ -722,35 +778,27 @@ void LineSweep::addLine(std::int16_t* places, float height) {
     places[std::size_t(width_) * placesInAPixel] = 0;
 }
 
-/// An edge covers what it covers; but where edges cross, what each does is right in the middle of the step
-/// only.
 void LineSweep::add(const PaintChange& change, const Step& step) {
-    const Seen& seen = *change.seen;
-    const float from = change.isCrossed ? seen.x : seen.from, to = change.isCrossed ? seen.x : seen.to;
-    if (remembers_ && (change.left.isProgram() || change.right.isProgram()))
-        chords_->push_back({{from, drawn_},
-                            {to, drawn_ + step.height},
+    const Edge edge = change.edge();
+    if (change.left.isProgram() || change.right.isProgram())
+        chords_->push_back({{edge.from, drawn_},
+                            {edge.to, drawn_ + step.height},
                             change.left.region.paint,
                             change.right.region.paint});
-    else if (change.left.isProgram())
-        addProgram(change.left, {from, to}, step);
-    programLeft_ = {from, to};
-    addAlong(sums_, from, to, step.height * (change.right.color - change.left.color));
+    addAlong(sums_, edge.from, edge.to, step.height * (change.right.color - change.left.color));
 }
 
-/// What lies between the last change and an edge, column by column.
-void LineSweep::addProgram(const Shown& shown, const Edge& right, const Step& step) {
-    const Edge& left = programLeft_;
+/// What lies between two edges, column by column.
+void LineSweep::addInPixels(const Edge& left, const Edge& right, const Step& step) {
+    if (state_.key() == 0)
+        return;
     addAlong(shares_, left.from, left.to, step.height);
     addAlong(shares_, right.from, right.to, -step.height);
-    const Program& program = programs_[shown.region.paint & ~programBit];
-    const std::span steps = std::span(programSteps_).subspan(program.first, program.end - program.first);
     const auto columnOf = [&](float x) { return std::size_t(std::clamp(x, 0.0f, float(width_))); };
     const std::size_t first = columnOf(std::min({left.from, left.to, right.from, right.to})),
                       last = columnOf(std::max({left.from, left.to, right.from, right.to}));
     const float from = 0.5f * (left.from + left.to), to = 0.5f * (right.from + right.to);
-    const int row = int(step.top);
-    PixelPlace place{0, row, {0, step.middle() - float(row)}};
+    PixelPlace place{0, {0, step.middle() - std::floor(step.top)}};
     float share = 0;
     for (std::size_t column = first; column <= last + 1; ++column) {
         share += std::exchange(shares_[column], 0.0f);
@@ -759,8 +807,8 @@ void LineSweep::addProgram(const Shown& shown, const Edge& right, const Step& st
         const auto begin = float(column);
         place.x = int(column);
         place.middle.x = 0.5f * (std::clamp(from - begin, 0.0f, 1.0f) + std::clamp(to - begin, 0.0f, 1.0f));
-        ++programsAsked_;
-        programSums_[column] += share * pixels_.color(program.key, steps, place);
+        ++pixelsAsked_;
+        pixelSums_[column] += share * pixels_.color(state_, place);
     }
 }
 
@@ -796,17 +844,17 @@ void LineSweep::finishRow(float top, float bottom) {
     for (int x = 0; x < width_; ++x) {
         const auto column = std::size_t(x);
         sum += sums_[column];
-        if (sums_[column] == glm::vec4(0) && programSums_[column] == glm::vec4(0) &&
-            (x == 0 || programSums_[column - 1] == glm::vec4(0)))
+        if (sums_[column] == glm::vec4(0) && pixelSums_[column] == glm::vec4(0) &&
+            (x == 0 || pixelSums_[column - 1] == glm::vec4(0)))
             continue;
-        const RegionPaint right = state_.paintOf(withinAPixel(perHeight * (sum + programSums_[column])));
+        const RegionPaint right = state_.paintOf(withinAPixel(perHeight * (sum + pixelSums_[column])));
         chords_->push_back({{float(x), top}, {float(x), bottom}, left, right});
         left = right;
     }
     if (left != 0)
         chords_->push_back({{float(width_), top}, {float(width_), bottom}, left, 0});
     std::ranges::fill(sums_, glm::vec4(0));
-    std::ranges::fill(programSums_, glm::vec4(0));
+    std::ranges::fill(pixelSums_, glm::vec4(0));
 }
 
 }  // namespace vtm::compiler

@@ -24,7 +24,6 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
-#include "compiler/containers/number_map.hpp"
 #include "compiler/containers/sort_places.hpp"
 #include "compiler/direct/covered_row.hpp"
 #include "compiler/direct/pixel_colors.hpp"
@@ -98,7 +97,7 @@ private:
     struct Edge {
         float from, to;
     };
-    /// A region's paint: a colour; or `programBit` and a number, of programs_ unless paints are remembered.
+    /// A region's paint: a colour, or a program that is remembered.
     struct Shown {
         Region region;
         glm::vec4 color{0};
@@ -108,17 +107,18 @@ private:
             return region.paint == other.region.paint && color == other.color;
         }
     };
-    struct Program {
-        std::uint64_t key;
-        std::size_t first, end;  ///< its steps
-    };
-    /// Between two paints.
-    struct PaintChange {
+    /// An edge that changes what is inside.
+    struct Change {
         const Seen* seen = nullptr;
-        Shown left, right;
         bool isCrossed = false;  ///< another one crosses it in the step
 
         bool crosses(const Seen& next) const { return seen->from > next.from || seen->to > next.to; }
+        /// Where edges cross, what each does is right in the middle of the step only.
+        Edge edge() const { return isCrossed ? Edge{seen->x, seen->x} : Edge{seen->from, seen->to}; }
+    };
+    /// And the paint.
+    struct PaintChange : Change {
+        Shown left, right;
     };
 
     void begin(std::span<const std::uint32_t> numbers);
@@ -143,8 +143,9 @@ private:
     void drawByParts(const Step& step);
     void drawInSteps(std::span<const Seen> chains, const Step& step, Shown& left, float begin, float end);
     Shown cross(std::span<const Seen> chains, const Step& step, Shown left, float begin, float end);
+    void crossInPixels(std::span<const Seen> chains, const Step& step, float begin, float end);
+    void findLayersOfPixels(float top, float bottom);
     Shown regionHere();
-    Shown compute();
     void measure(float top, float bottom);
     template <class Take>
     void crossOutline(std::span<const Seen> chains, const Take& take);
@@ -152,7 +153,7 @@ private:
     void drawLines(float top, float bottom);
     void addLine(std::int16_t* places, float height);
     void add(const PaintChange& change, const Step& step);
-    void addProgram(const Shown& shown, const Edge& right, const Step& step);
+    void addInPixels(const Edge& left, const Edge& right, const Step& step);
     template <class Amount>
     static void addAlong(std::vector<Amount>& sums, float from, float to, const Amount& amount);
     void finishRow(float top, float bottom);
@@ -179,7 +180,7 @@ private:
     std::vector<Placed> spare_;
     std::span<const std::uint32_t> toCome_;  ///< from the top
     std::vector<Step> steps_;
-    std::vector<ContentChange> changes_;
+    std::vector<ContentChange> contentChanges_;
     std::vector<Piece> pieces_;
     std::vector<Seen> part_;  ///< of sorted_, in smaller steps
     std::vector<Placed> partOrder_;
@@ -188,17 +189,14 @@ private:
     std::vector<glm::vec4> sums_;  ///< by column: what changes there, times height
     std::vector<float> shares_;    ///< the same of one layer's inside, or of a region
     // Of pictures with programs.
-    bool remembers_ = false;               ///< their paints
-    NumberMap known_;                      ///< by key: of regions_
-    std::vector<Shown> regions_;           ///< in the row
-    std::vector<Program> programs_;        ///< theirs
-    std::vector<PaintStep> programSteps_;  ///< of these
-    double costOfCut_ = 1;                 ///< with programs, in the band
-    bool isMeasured_ = false;              ///< that is known
-    std::size_t programsAsked_ = 0;
-    Edge programLeft_{};                  ///< of the program on the left of the next change
-    std::vector<glm::vec4> programSums_;  ///< by column: what programs show there, times height
-    std::int32_t winding_ = 0;            ///< of one layer
+    bool remembers_ = false;   ///< their paints
+    bool isInPixels_ = false;  ///< or paints are composited in each pixel
+    double costOfCut_ = 1;     ///< then, in the band
+    bool isMeasured_ = false;  ///< that is known
+    std::size_t pixelsAsked_ = 0;
+    std::vector<Change> changes_;
+    std::vector<glm::vec4> pixelSums_;  ///< by column: what regions show there, times height
+    std::int32_t winding_ = 0;          ///< of one layer
     bool isJudged_ = false, isTangled_ = false;
     std::vector<std::int16_t> places_;  ///< of lines: what is added to the winding number there
     float drawn_ = 0;                   ///< of the row

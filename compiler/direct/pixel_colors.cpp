@@ -2,114 +2,264 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include <glm/common.hpp>
 
-#include "compiler/paint/region_paints.hpp"
+#include "compiler/lower/walk_items.hpp"
+#include "compiler/paint/composite.hpp"
 #include "raster/blend.hpp"
 
 namespace vtm::compiler {
 namespace {
 
-constexpr std::size_t mostKnown = 1u << 14;
-
 using Float4 = float __attribute__((vector_size(16)));
+
+glm::vec4 vectorOf(Float4 color) { return std::bit_cast<glm::vec4>(color); }
 
 Float4 over(Float4 source, Float4 backdrop) { return source + (1 - source[3]) * backdrop; }
 
 /// A group, or a mask.
-Float4 laidOver(const asset::Instruction& in, Float4 source, Float4 below) {
-    const auto group = std::bit_cast<glm::vec4>(source);
-    if (in.op != asset::Op::Pop)
-        return asset::maskFactor(in.op, group) * below;
-    if (in.blend == asset::Blend::Normal)
-        return over(in.opacity * source, below);
-    return std::bit_cast<Float4>(asset::blend(in.blend, in.opacity * group, std::bit_cast<glm::vec4>(below)));
+Float4 laidOver(const LoweredGroup& group, Float4 source, Float4 below) {
+    if (group.role != GroupRole::Plain)
+        return maskFactor(group.role, vectorOf(source)) * below;
+    if (group.blend == scene::BlendMode::Normal)
+        return over(group.opacity * source, below);
+    return std::bit_cast<Float4>(
+        asset::blend(blendOf(group.blend), group.opacity * vectorOf(source), vectorOf(below)));
 }
 
 }  // namespace
 
-template <class Make>
-const PixelColors::Known& PixelColors::remembered(std::vector<Known>& known, std::uint64_t key, int x,
-                                                  int row, const Make& make) {
-    const std::uint64_t place = std::uint64_t(row) << 16 | std::uint64_t(x);
-    Known& one = known[hashValue(key ^ hashValue(place)) % mostKnown];
-    if (one.key != key || one.x != x || one.row != row) {
-        one = {key, x, row, false, {}};
-        make(one);
-    }
-    return one;
-}
+/// Composites layers from the bottom, with their groups round them.
+template <std::size_t quarters>
+class PixelColors::Groups {
+public:
+    /// `outer`: by group; those without one are no more than their layers.
+    Groups(const LoweredScene& picture, std::span<const std::uint32_t> outer, const Quarters& below)
+        : picture_(picture), outer_(outer), walk_(picture, *this), open_(1, below) {}
 
-glm::vec4 PixelColors::color(std::uint64_t key, std::span<const PaintStep> program, const PixelPlace& place) {
+    void add(const LoweredItem& item, const Quarters& colors) {
+        colors_ = &colors;
+        walk_.item(item);
+    }
+    Quarters finish() {
+        walk_.finish();
+        return open_.front();
+    }
+
+    void open(std::uint32_t group) {
+        if (outer_[group] != noIndex)
+            open_.emplace_back();
+    }
+    void item(const LoweredItem&) {
+        Quarters& below = open_.back();
+        for (std::size_t i = 0; i < quarters; ++i)
+            below[i] = over((*colors_)[i], below[i]);
+    }
+    void emptyMask(std::uint32_t) { open_.back() = {}; }
+    void close(std::uint32_t group) {
+        if (outer_[group] == noIndex)
+            return;
+        const Quarters source = open_.back();
+        open_.pop_back();
+        for (std::size_t i = 0; i < quarters; ++i)
+            open_.back()[i] = laidOver(picture_.groups[group], source[i], open_.back()[i]);
+    }
+
+private:
+    const LoweredScene& picture_;
+    const std::span<const std::uint32_t> outer_;
+    ItemWalk<Groups> walk_;
+    std::vector<Quarters> open_;
+    const Quarters* colors_ = nullptr;
+};
+
+void PixelColors::beginRow(int row) {
     if (!sources_)
         make();
-    const Known& known = remembered(programs_, key, place.x, place.row, [&](Known& one) {
-        one.isSteep = isSteep(program);
-        one.quarters =
-            one.isSteep ? composite<4>(program, one.x, one.row) : composite<1>(program, one.x, one.row);
-    });
+    row_ = row;
+    for (Pixel& pixel : pixels_) {
+        pixel.layers.clear();
+        pixel.parts.clear();
+        pixel.colors.clear();
+        pixel.below = {};
+        pixel.isSteep = false;
+        pixel.isBlended = false;
+        pixel.known.fill({});
+    }
+}
+
+void PixelColors::add(const RegionState& state, std::uint32_t layer, std::int32_t first, std::int32_t end,
+                      bool inParts) {
+    if (state.isOfClip(layer))
+        return;
+    const LayerCover& cover = state.cover(layer);
+    const Source& source = picture_.sources[itemOf(layer).source];
+    const bool isSteep = source.op != asset::Op::Solid && sources_->isSteep[source.data] != 0;
+    inParts = inParts || state.isClipped(layer);
+    end = std::min(end, std::int32_t(pixels_.size()));
+    for (std::int32_t x = std::max(first, 0); x < end; ++x) {
+        Pixel& pixel = pixels_[std::size_t(x)];
+        if (cover.mayBeHidden && pixel.below.light() <= unseen)
+            continue;
+        pixel.layers.push_back({layer, inParts});
+        pixel.isSteep = pixel.isSteep || isSteep;
+        if (!inParts)
+            pixel.below.add(cover);
+    }
+}
+
+glm::vec4 PixelColors::color(const RegionState& state, const PixelPlace& place) {
+    Pixel& pixel = pixels_[std::size_t(place.x)];
+    Known& known = pixel.known[state.key() % pixel.known.size()];
+    if (known.key != state.key()) {
+        if (pixel.parts.empty())
+            divide(pixel);
+        known = {state.key(),
+                 pixel.isSteep ? composite<4>(state, pixel, place.x) : composite<1>(state, pixel, place.x)};
+    }
     const Quarters& quarters = known.quarters;
-    if (!known.isSteep)
-        return std::bit_cast<glm::vec4>(quarters[0]);
-    const glm::vec2 at = glm::clamp(2.0f * place.middle - 0.5f, 0.0f, 1.0f);
-    const Float4 upper = quarters[0] + at.x * (quarters[1] - quarters[0]),
-                 lower = quarters[2] + at.x * (quarters[3] - quarters[2]);
-    return std::bit_cast<glm::vec4>(upper + at.y * (lower - upper));
+    if (!pixel.isSteep)
+        return vectorOf(quarters[0]);
+    const glm::vec2 middle = glm::clamp(2.0f * place.middle - 0.5f, 0.0f, 1.0f);
+    const Float4 upper = quarters[0] + middle.x * (quarters[1] - quarters[0]),
+                 lower = quarters[2] + middle.x * (quarters[3] - quarters[2]);
+    return vectorOf(upper + middle.y * (lower - upper));
 }
 
-bool PixelColors::isSteep(std::span<const PaintStep> program) const {
-    return std::ranges::any_of(program, [&](const PaintStep& step) {
-        return step.instruction.op > asset::Op::Solid && sources_->isSteep[step.instruction.argument] != 0;
-    });
+void PixelColors::divide(Pixel& pixel) const {
+    const std::vector<Listed>& layers = pixel.layers;
+    const auto count = std::uint32_t(layers.size());
+    for (std::uint32_t i = 0, end; i < count; i = end) {
+        const std::uint32_t outer = outerOf(layers[i].layer);
+        bool isWhole = true;
+        for (end = i; end == i || (end < count && outer != noIndex && outerOf(layers[end].layer) == outer);
+             ++end)
+            isWhole = isWhole && !layers[end].inParts;
+        const auto isRun = [](const Part& each) { return each.isWhole && !each.isBlended; };
+        const bool hasGroups = outer != noIndex;
+        const Part part{i, end, hasGroups, isWhole, !isWhole && !hasGroups, isBlended(outer)};
+        if (!pixel.parts.empty() && isRun(pixel.parts.back()) && isRun(part)) {
+            pixel.parts.back().end = end;
+            pixel.parts.back().hasGroups = pixel.parts.back().hasGroups || hasGroups;
+        } else {
+            pixel.parts.push_back(part);
+        }
+        pixel.isBlended = pixel.isBlended || part.isBlended;
+    }
+    // There is nothing below the lowest one.
+    std::vector<Part>& parts = pixel.parts;
+    while (parts.size() > 1 && parts.back().isWhole && parts[parts.size() - 2].isWhole) {
+        const bool hasGroups = parts.back().hasGroups;
+        parts.pop_back();
+        parts.back().end = count;
+        parts.back().hasGroups = parts.back().hasGroups || hasGroups;
+    }
+    if (!parts.empty() && parts.back().isWhole)
+        parts.back().isBlended = false;
 }
 
-template <std::size_t parts>
-PixelColors::Quarters PixelColors::composite(std::span<const PaintStep> program, int x, int row) {
-    groups_.assign(1, {});
-    const auto layOver = [&](float opacity, const auto& sourceOf) {
-        Quarters& below = groups_.back();
-        for (std::size_t i = 0; i < parts; ++i)
-            below[i] = over(opacity * sourceOf(i), below[i]);
-    };
-    for (const PaintStep& step : program) {
-        const asset::Instruction& in = step.instruction;
-        switch (in.op) {
-            case asset::Op::Push:
-                groups_.emplace_back();
-                break;
-            case asset::Op::Pop:
-            case asset::Op::PopMaskLuminance:
-            case asset::Op::PopMaskLinear:
-            case asset::Op::PopMaskAlpha: {
-                const Quarters source = groups_.back();
-                groups_.pop_back();
-                for (std::size_t i = 0; i < parts; ++i)
-                    groups_.back()[i] = laidOver(in, source[i], groups_.back()[i]);
-                break;
-            }
-            case asset::Op::Solid:
-                layOver(in.opacity, [&](std::size_t) { return std::bit_cast<Float4>(step.color); });
-                break;
-            default: {
-                const Known& layer = ofLayer(in.argument, x, row);
-                layOver(in.opacity, [&](std::size_t i) { return layer.quarters[layer.isSteep ? i : 0]; });
-            }
+template <std::size_t quarters, class Next>
+PixelColors::Quarters PixelColors::stacked(Next next) {
+    Quarters sum{};
+    std::array<float, quarters> light;
+    light.fill(1);
+    for (float most = 1; most > unseen;) {
+        const Quarters* const colors = next();
+        if (!colors)
+            break;
+        most = 0;
+        for (std::size_t i = 0; i < quarters; ++i) {
+            sum[i] += light[i] * (*colors)[i];
+            light[i] *= 1 - (*colors)[i][3];
+            most = std::max(most, light[i]);
         }
     }
-    return groups_.back();
+    return sum;
 }
 
-const PixelColors::Known& PixelColors::ofLayer(std::uint32_t data, int x, int row) {
-    return remembered(layers_, data, x, row, [&](Known& one) {
+template <std::size_t quarters>
+PixelColors::Quarters PixelColors::composite(const RegionState& state, Pixel& pixel, int x) const {
+    const auto isShown = [&](const Part& part) {
+        return !part.isAlone || state.isShown(pixel.layers[part.first].layer);
+    };
+    if (!pixel.isBlended)
+        return stacked<quarters>([&, at = std::size_t{0}]() mutable -> const Quarters* {
+            while (at < pixel.parts.size() && !isShown(pixel.parts[at]))
+                ++at;
+            return at < pixel.parts.size() ? &colorsOf<quarters>(state, pixel, pixel.parts[at++], x)
+                                           : nullptr;
+        });
+    Quarters sum{};
+    for (std::size_t p = pixel.parts.size(); p-- > 0;) {
+        Part& part = pixel.parts[p];
+        if (part.isBlended) {
+            sum = inGroups<quarters>(state, pixel, part, x, sum);
+        } else if (isShown(part)) {
+            const Quarters& colors = colorsOf<quarters>(state, pixel, part, x);
+            for (std::size_t i = 0; i < quarters; ++i)
+                sum[i] = over(colors[i], sum[i]);
+        }
+    }
+    return sum;
+}
+
+/// Of a part that is laid over what lies below it.
+template <std::size_t quarters>
+const PixelColors::Quarters& PixelColors::colorsOf(const RegionState& state, Pixel& pixel, Part& part,
+                                                   int x) const {
+    if (part.isKnown)
+        return part.colors;
+    part.isKnown = part.isWhole || part.isAlone;
+    if (part.hasGroups)
+        part.colors = inGroups<quarters>(state, pixel, part, x, {});
+    else
+        part.colors =
+            stacked<quarters>([&, at = part.first, colors = Quarters{}]() mutable -> const Quarters* {
+                if (at == part.end)
+                    return nullptr;
+                colors = colorsOf(pixel.layers[at++].layer, x, quarters > 1);
+                return &colors;
+            });
+    return part.colors;
+}
+
+/// Of layers in groups, laid over or blended with what is below.
+template <std::size_t quarters>
+PixelColors::Quarters PixelColors::inGroups(const RegionState& state, Pixel& pixel, const Part& part, int x,
+                                            const Quarters& below) const {
+    Groups<quarters> groups(picture_, sources_->outer, below);
+    for (std::uint32_t i = part.end; i-- > part.first;) {
+        Listed& listed = pixel.layers[i];
+        if (listed.inParts && !state.isShown(listed.layer))
+            continue;
+        if (listed.known == noIndex) {
+            listed.known = std::uint32_t(pixel.colors.size());
+            pixel.colors.push_back(colorsOf(listed.layer, x, quarters > 1));
+        }
+        groups.add(itemOf(listed.layer), pixel.colors[listed.known]);
+    }
+    return groups.finish();
+}
+
+PixelColors::Quarters PixelColors::colorsOf(std::uint32_t layer, int x, bool inQuarters) const {
+    const LoweredItem& item = itemOf(layer);
+    const Source& source = picture_.sources[item.source];
+    Quarters colors;
+    if (source.op == asset::Op::Solid) {
+        colors.fill(std::bit_cast<Float4>(source.color));
+    } else {
         const asset::PixelPaints& pixels = *sources_->pixels;
-        const std::uint32_t paint = sources_->paints[data];
-        one.isSteep = sources_->isSteep[data] != 0;
-        if (one.isSteep)
-            one.quarters = std::bit_cast<Quarters>(pixels.quarters(paint, x, row));
+        const std::uint32_t paint = sources_->paints[source.data];
+        if (inQuarters && sources_->isSteep[source.data] != 0)
+            colors = std::bit_cast<Quarters>(pixels.quarters(paint, x, row_));
         else
-            one.quarters[0] = std::bit_cast<Float4>(pixels.color(paint, x, row));
-    });
+            colors.fill(std::bit_cast<Float4>(pixels.color(paint, x, row_)));
+    }
+    for (Float4& color : colors)
+        color *= item.opacity;
+    return colors;
 }
 
 void PixelColors::make() {
@@ -130,8 +280,27 @@ void PixelColors::make() {
     for (const Source& source : picture_.sources)
         if (source.op != asset::Op::Solid)
             sources_->isSteep[source.data] = sources_->pixels->isSteep(sources_->paints[source.data]);
-    programs_.resize(mostKnown);
-    layers_.resize(mostKnown);
+    findOuter();
+    pixels_.resize(std::size_t(view_.width));
+}
+
+void PixelColors::findOuter() {
+    const std::vector<LoweredGroup>& groups = picture_.groups;
+    std::vector<std::uint32_t>& outer = sources_->outer;
+    outer.assign(groups.size(), noIndex);
+    // What is blended sees only what is in the group round it; nothing is below the root.
+    for (std::uint32_t g = 0; g < groups.size(); ++g)
+        if (const std::uint32_t parent = groups[g].parent;
+            groups[g].blend != scene::BlendMode::Normal && parent != noIndex && groups[parent].depth > 1)
+            outer[parent] = parent;
+    for (std::uint32_t g = 0; g < groups.size(); ++g) {  // parents come first
+        const LoweredGroup& group = groups[g];
+        if (group.parent != noIndex && outer[group.parent] != noIndex)
+            outer[g] = outer[group.parent];
+        else if (group.role != GroupRole::Plain || group.opacity < 1 ||
+                 group.blend != scene::BlendMode::Normal || group.mask != noIndex)
+            outer[g] = g;
+    }
 }
 
 }  // namespace vtm::compiler

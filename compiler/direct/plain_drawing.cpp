@@ -14,6 +14,7 @@
 #include "compiler/direct/hidden_layers.hpp"
 #include "compiler/direct/pixel_colors.hpp"
 #include "compiler/direct/region_state.hpp"
+#include "compiler/direct/resolve_clips.hpp"
 #include "compiler/direct/view_chains.hpp"
 #include "compiler/lower/lower.hpp"
 #include "compiler/patterns/pattern_images.hpp"
@@ -137,6 +138,7 @@ struct PlainDrawing::Impl {
             lower(scene, excerpt, lattice, budget, Sharing::All, nullptr, nullptr, &tiles, &images);
         if (!tiles.patterns.empty() || !picture.materials.empty())
             return nullptr;
+        resolveClips(picture);
         ViewChains chains(picture, lattice, view);
         leaveOutHidden(picture, chains, view);
         std::vector<image::Bitmap> bitmaps = bitmapsOf(picture);

@@ -22,13 +22,11 @@ std::uint64_t hashOf(const glm::vec4& color) {
 
 RegionState::RegionState(const LoweredScene& picture)
     : picture_(picture),
-      painter_(picture),
       layers_(picture.layers.size()),
       shades_(picture.layers.size()),
       translucent_(picture.groups.size(), noIndex),
       inside_(picture.layers.size() / 64 + 1),
-      filled_(inside_.size() / 64 + 1),
-      flags_(picture.layers.size()) {
+      filled_(inside_.size() / 64 + 1) {
     for (std::uint32_t l = 0; l < layers_.size(); ++l) {
         layers_[l].mask = picture.layers[l].rule == scene::FillRule::EvenOdd ? 1 : -1;
         layers_[l].name = hashValue(l);
@@ -46,13 +44,12 @@ RegionState::RegionState(const LoweredScene& picture)
     for (const LoweredItem& item : picture.items) {
         const Source& source = picture.sources[item.source];
         Shade& shade = shades_[item.layer];
-        shade.kind = isLaidOver[item.group] && source.op == asset::Op::Solid ? Shade::Solid : Shade::Other;
+        shade.isColor = source.op == asset::Op::Solid;
+        shade.kind = isLaidOver[item.group] && shade.isColor ? Shade::Solid : Shade::Other;
         hasPrograms_ = hasPrograms_ || shade.kind == Shade::Other;
         shade.isLaidOver = isLaidOver[item.group] != 0;
         shade.isClipped = isClipped[item.group] != 0;
         shade.group = translucent_[item.group];
-        const bool isColor = source.op == asset::Op::Solid;
-        shade.instruction = {source.op, asset::Blend::Normal, isColor ? 1 : item.opacity, source.data};
         const auto& c = source.color;
         shade.color = item.opacity * glm::vec4(c[0], c[1], c[2], c[3]);
         shade.cover = covers[item.layer];
@@ -86,6 +83,21 @@ void RegionState::forEachFromTop(Visit&& visit) const {
                     return;
             }
         }
+}
+
+std::uint32_t RegionState::hiddenByFew() const {
+    constexpr int few = 16;
+    LightBelow below;
+    std::uint32_t hidden = 0;
+    int looked = 0;
+    forEachFromTop([&](std::uint32_t layer) {
+        if (shades_[layer].kind != Shade::None && !isClippedAway(layer))
+            below.add(shades_[layer].cover);
+        if (below.light() <= unseen)
+            hidden = layer;
+        return hidden == 0 && ++looked < few;
+    });
+    return hidden;
 }
 
 /// By a clip of a group round it.
@@ -171,26 +183,33 @@ RegionPaint RegionState::colorNumber(const glm::vec4& color) {
     return number;
 }
 
-/// Of a deep stack, what no light comes through is left out.
-RegionPaint RegionState::computeAny(Region& region) {
+/// Lists the items that show, from the bottom. Of a deep stack, what no light comes through is left out.
+/// Returns whether all are colours.
+bool RegionState::listItems(Region& region) {
     constexpr std::size_t deep = 8;
     list_.clear();
     LightBelow below;
+    bool areColors = true;
     forEachFromTop([&](std::uint32_t layer) {
-        const bool isUnseen = below.light() <= unseen && list_.size() >= deep;
-        if (isUnseen && !isOfClip(layer))
+        const Shade& shade = shades_[layer];
+        if (shade.kind == Shade::None || isClippedAway(layer))
             return true;
-        list_.push_back(layer);
-        flags_[layer] = 1;
-        below.add(shades_[layer].cover);
-        if (!isUnseen && below.light() <= unseen && list_.size() >= deep)
-            region.hidden = layer;
-        return true;
+        list_.push_back(picture_.itemOfLayer[layer]);
+        areColors = areColors && shade.isColor;
+        below.add(shade.cover);
+        if (below.light() > unseen || list_.size() < deep)
+            return true;
+        region.hidden = layer;
+        return false;
     });
-    std::reverse(list_.begin(), list_.end());
-    const PaintId id = painter_.paint(list_, flags_, palette_);
-    for (const std::uint32_t layer : list_)
-        flags_[layer] = 0;
+    std::ranges::reverse(list_);
+    return areColors;
+}
+
+RegionPaint RegionState::computeAny(Region& region) {
+    if (listItems(region))
+        return colorNumber(compositeColors(picture_, list_));
+    const PaintId id = palette_.add(compositeItems(picture_, list_));
     if (ofPalette_.size() <= id)
         ofPalette_.resize(id + 1, NumberMap::unknown);
     RegionPaint& paint = ofPalette_[id];
@@ -206,39 +225,9 @@ RegionPaint RegionState::computeAny(Region& region) {
     return paint = RegionPaint(programs_.size() - 1) | programBit;
 }
 
-Region RegionState::regionOfPixels(glm::vec4& color, std::vector<PaintStep>& steps) {
+Region RegionState::regionOfPixels(glm::vec4& color) {
     Region region;
-    if (stackSolids(color, region))
-        return region;
-    color = glm::vec4(0);
-    region = {.paint = programBit};
-    list_.clear();
-    LightBelow below;
-    bool isPlain = true;
-    forEachFromTop([&](std::uint32_t layer) {
-        const Shade& shade = shades_[layer];
-        if (shade.kind == Shade::None || isClippedAway(layer))
-            return true;
-        list_.push_back(layer);
-        isPlain = isPlain && shade.isLaidOver && shade.group == noIndex;
-        below.add(shade.cover);
-        if (below.light() > unseen)
-            return true;
-        region.hidden = layer;
-        return false;
-    });
-    std::ranges::reverse(list_);
-    if (!isPlain) {
-        for (std::uint32_t& item : list_)
-            item = picture_.itemOfLayer[item];
-        const PaintProgram program = compositeItems(picture_, list_);
-        steps.insert(steps.end(), program.begin(), program.end());
-        return region;
-    }
-    for (const std::uint32_t layer : list_) {
-        const glm::vec4& c = shades_[layer].color;
-        steps.push_back({shades_[layer].instruction, {c.x, c.y, c.z, c.w}});
-    }
+    stackSolids(color, region);
     return region;
 }
 

@@ -11,7 +11,6 @@
 #include "compiler/containers/number_map.hpp"
 #include "compiler/direct/layer_cover.hpp"
 #include "compiler/lower/lowered_scene.hpp"
-#include "compiler/paint/painters.hpp"
 #include "compiler/paint/palette.hpp"
 
 namespace vtm::compiler {
@@ -60,9 +59,9 @@ public:
         }
         return regions_[number];
     }
-    /// The same of a region of a few pixels, which is not remembered: sets its colour, or appends the steps
-    /// of its program to `steps`; then its paint is `programBit`.
-    Region regionOfPixels(glm::vec4& color, std::vector<PaintStep>& steps);
+    /// The same of a region of a few pixels, whose colour is set and not remembered. Not if there are
+    /// programs.
+    Region regionOfPixels(glm::vec4& color);
     /// Of another set; null if it was not asked for before. Valid until the next is asked for.
     const Region* known(std::uint64_t key) const {
         const std::uint32_t number = known_.at(key);
@@ -72,10 +71,19 @@ public:
     bool isHidden(std::uint32_t layer, const Region& by) const {
         return layer < by.hidden && shades_[layer].kind != Shade::None;
     }
+    /// Items' layers below this one do not matter, as far as a few of the topmost tell.
+    std::uint32_t hiddenByFew() const;
     const LayerCover& cover(std::uint32_t layer) const { return shades_[layer].cover; }
     bool isOfClip(std::uint32_t layer) const { return shades_[layer].kind == Shade::None; }
     bool isInside(std::uint32_t layer, std::int32_t winding) const {
         return layers_[layer].isInside(winding);
+    }
+    /// Whether an item's layer is inside, and inside its clips.
+    bool isShown(std::uint32_t layer) const { return isInside(layer) && !isClippedAway(layer); }
+    bool isClipped(std::uint32_t layer) const { return shades_[layer].isClipped; }
+    /// Whether it is laid over what is below it, alone.
+    bool isLaidOver(std::uint32_t layer) const {
+        return shades_[layer].isLaidOver && shades_[layer].group == noIndex;
     }
     /// Whether a layer is only where its winding number is odd.
     bool isEvenOdd(std::uint32_t layer) const { return layers_[layer].mask == 1; }
@@ -113,7 +121,7 @@ private:
         bool isLaidOver = false;        ///< in no group but such
         std::uint32_t group = noIndex;  ///< the innermost that is translucent
         glm::vec4 color{0};             ///< with its opacity
-        asset::Instruction instruction;
+        bool isColor = false;
         LayerCover cover;
     };
     /// A translucent group that is composited, from the top.
@@ -139,9 +147,9 @@ private:
     void openUpTo(std::uint32_t group);
     RegionPaint colorNumber(const glm::vec4& color);
     RegionPaint computeAny(Region& region);
+    bool listItems(Region& region);
 
     const LoweredScene& picture_;
-    PicturePainter painter_;
     std::vector<LayerState> layers_;
     std::vector<Shade> shades_;               ///< by layer
     std::vector<std::uint32_t> translucent_;  ///< by group: the innermost round it and with it
@@ -157,9 +165,8 @@ private:
     std::vector<PaintProgram> programs_;
     std::size_t programSteps_ = 0;        ///< in all of them
     std::vector<RegionPaint> ofPalette_;  ///< by paint of the palette
-    std::vector<std::uint32_t> list_;
+    std::vector<std::uint32_t> list_;     ///< items
     bool hasPrograms_ = false;
-    std::vector<std::uint8_t> flags_;
 };
 
 }  // namespace vtm::compiler

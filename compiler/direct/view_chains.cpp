@@ -24,10 +24,10 @@ bool overlap(const Box& a, const Box& b) {
     return a.min.x < b.max.x && a.max.x > b.min.x && a.min.y < b.max.y && a.max.y > b.min.y;
 }
 
-/// Around what is seen of items in groups with clips.
-class ClipBoxes {
+/// Around what is seen of items in groups with clips, and around what clips may let through.
+class ShownBoxes {
 public:
-    ClipBoxes(const LoweredScene& picture, const scene::Affine& toPixels, const asset::View& view)
+    ShownBoxes(const LoweredScene& picture, const scene::Affine& toPixels, const asset::View& view)
         : picture_(picture),
           toPixels_(toPixels),
           all_{{0, 0}, {view.width, view.height}},
@@ -37,17 +37,49 @@ public:
             const Box outer = group.parent == noIndex ? all_ : groups_[group.parent];
             groups_.push_back(group.clip == noIndex ? outer : outer.intersection(ofClip(group.clip)));
         }
+        if (!picture.clips.empty())
+            findClipped();
     }
 
-    /// Of an item in such a group; null for others, of which all of the view is seen, and for clips.
+    /// Null for items in groups without clips, of which all of the view is seen.
     const Box* ofLayer(std::uint32_t layer) const {
         const std::uint32_t item = picture_.itemOfLayer[layer];
-        const std::uint32_t group = item == noIndex ? 0 : picture_.items[item].group;
+        if (item == noIndex)
+            return &clipLayers_[layer];
+        const std::uint32_t group = picture_.items[item].group;
         return isClipped_[group] ? &groups_[group] : nullptr;
     }
     const Box& view() const { return all_; }
 
 private:
+    /// Where what is in groups with clips may be seen.
+    void findClipped() {
+        std::vector<Box> content(picture_.groups.size()), clips(picture_.clips.size());
+        for (const LoweredItem& item : picture_.items)
+            if (isClipped_[item.group]) {
+                limits::check();
+                content[item.group].add(
+                    ofOutline(picture_.layers[item.layer]).intersection(groups_[item.group]));
+            }
+        for (std::size_t g = picture_.groups.size(); g-- > 0;) {  // children before parents
+            const LoweredGroup& group = picture_.groups[g];
+            if (group.clip != noIndex)
+                clips[group.clip].add(content[g]);
+            if (group.parent != noIndex)
+                content[group.parent].add(content[g]);
+        }
+        clipLayers_.resize(picture_.layers.size());
+        for (std::size_t c = clips.size(); c-- > 0;) {  // those within others come before
+            const ClipExpression& clip = picture_.clips[c];
+            if (clip.outer != noIndex)
+                clips[clip.outer].add(clips[c]);
+            for (const ClipExpression::Term& term : clip.terms) {
+                clipLayers_[term.layer].add(clips[c]);
+                if (term.clip != noIndex)
+                    clips[term.clip].add(clips[c]);
+            }
+        }
+    }
     Box ofClip(std::uint32_t index) {
         if (known_[index])
             return *known_[index];
@@ -80,6 +112,7 @@ private:
     const Box all_;
     const std::vector<std::uint8_t> isClipped_;  ///< by group
     std::vector<Box> groups_;
+    std::vector<Box> clipLayers_;            ///< by layer; none without clips
     std::vector<std::optional<Box>> known_;  ///< by clip
 };
 
@@ -270,7 +303,7 @@ void ViewChains::addLayer(const LoweredScene& picture, std::uint32_t index, cons
 
 ViewChains::ViewChains(const LoweredScene& picture, const Lattice& lattice, const asset::View& view) {
     const scene::Affine toPixels = scene::compose(view.toPixels, *scene::inverse(lattice.toSteps()));
-    const ClipBoxes boxes(picture, toPixels, view);
+    const ShownBoxes boxes(picture, toPixels, view);
     const std::vector<LayersAtOnce> parts = divided(picture);
     std::vector<ViewChains> made(parts.size());
     tbb::parallel_for(std::size_t{0}, parts.size(), [&, holding = limits::current()](std::size_t i) {

@@ -4,6 +4,7 @@
 
 #include <vtm/limits/limits.hpp>
 #include "compiler/lower/walk_items.hpp"
+#include "raster/blend.hpp"
 
 namespace vtm::compiler {
 namespace {
@@ -44,6 +45,11 @@ struct Frame {
     }
 
     void clear() { steps.clear(); }
+
+    void become(const Color& color) {
+        clear();
+        solid(color);
+    }
 
     /// Whether all layers are laid over what is there: then they may be moved onto another frame, since
     /// `over` is associative. Blend modes and masks see what is in the frame.
@@ -106,13 +112,19 @@ private:
     }
 };
 
-// The asset's modes are numbered like the scene's: they are cast, not looked up.
-static_assert(static_cast<int>(asset::Blend::PlusLighter) ==
-                  static_cast<int>(scene::BlendMode::PlusLighter) &&
-              static_cast<int>(asset::Blend::HardLight) == static_cast<int>(scene::BlendMode::HardLight));
+/// Of a mask.
+Op popOf(GroupRole role) {
+    return role == GroupRole::AlphaMask       ? Op::PopMaskAlpha
+           : role == GroupRole::LuminanceMask ? Op::PopMaskLuminance
+                                              : Op::PopMaskLinear;
+}
 
-/// Luminance of a premultiplied colour, W3C masking level 1 section 7.10.1.
-float luminance(const Color& c) { return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2]; }
+glm::vec4 vectorOf(const Color& c) { return {c[0], c[1], c[2], c[3]}; }
+
+Color blended(asset::Blend mode, const Color& source, const Color& backdrop) {
+    const glm::vec4 c = asset::blend(mode, vectorOf(source), vectorOf(backdrop));
+    return {c[0], c[1], c[2], c[3]};
+}
 
 /// Runs the items over one region.
 class Compositor {
@@ -152,16 +164,18 @@ private:
             return;
         }
         const bool normal = group.blend == scene::BlendMode::Normal || parent.steps.empty();
+        const auto mode = normal ? asset::Blend::Normal : blendOf(group.blend);
         if (normal && child.constant()) {
             parent.solid(scaled(child.color(), opacity));
+        } else if (child.constant() && parent.constant()) {
+            parent.become(blended(mode, scaled(child.color(), opacity), parent.color()));
         } else if (normal && child.steps.size() == 1) {
             child.steps[0].instruction.opacity *= opacity;
             parent.source(child.steps[0], false);
         } else if (normal && opacity >= 1 && child.onlyOver()) {
             parent.laid(child);
         } else {
-            parent.nested(child, Op::Pop,
-                          normal ? asset::Blend::Normal : static_cast<asset::Blend>(group.blend), opacity);
+            parent.nested(child, Op::Pop, mode, opacity);
         }
     }
 
@@ -170,24 +184,68 @@ private:
             return parent.clear();
         if (parent.steps.empty())
             return;
-        if (parent.constant() && child.constant() && role != GroupRole::LinearMask) {
-            const float m = role == GroupRole::AlphaMask ? child.color()[3] : luminance(child.color());
-            const Color masked = scaled(parent.color(), m);
-            parent.clear();
-            return parent.solid(masked);
-        }
-        parent.nested(child,
-                      role == GroupRole::AlphaMask       ? Op::PopMaskAlpha
-                      : role == GroupRole::LuminanceMask ? Op::PopMaskLuminance
-                                                         : Op::PopMaskLinear,
-                      asset::Blend::Normal, 1);
+        const Op pop = popOf(role);
+        if (parent.constant() && child.constant())
+            return parent.become(scaled(parent.color(), asset::maskFactor(pop, vectorOf(child.color()))));
+        parent.nested(child, pop, asset::Blend::Normal, 1);
     }
 
     const LoweredScene& picture_;
     std::vector<Frame> frames_;
 };
 
+/// The same where all items are colours.
+class ColorCompositor {
+public:
+    explicit ColorCompositor(const LoweredScene& picture) : picture_(picture), frames_(1) {}
+
+    void open(std::uint32_t) { frames_.emplace_back(0); }
+    void item(const LoweredItem& item) {
+        frames_.back() =
+            asset::over(item.opacity * vectorOf(picture_.sources[item.source].color), frames_.back());
+    }
+    void emptyMask(std::uint32_t) { frames_.back() = glm::vec4(0); }
+    void close(std::uint32_t index) {
+        const LoweredGroup& group = picture_.groups[index];
+        const glm::vec4 child = frames_.back();
+        frames_.pop_back();
+        glm::vec4& parent = frames_.back();
+        if (group.role != GroupRole::Plain)
+            parent *= maskFactor(group.role, child);
+        else if (group.blend == scene::BlendMode::Normal)
+            parent = asset::over(group.opacity * child, parent);
+        else
+            parent = asset::blend(blendOf(group.blend), group.opacity * child, parent);
+    }
+
+    const glm::vec4& result() const { return frames_.front(); }
+
+private:
+    const LoweredScene& picture_;
+    std::vector<glm::vec4> frames_;
+};
+
+template <class C>
+C composited(const LoweredScene& picture, std::span<const std::uint32_t> items) {
+    limits::check();
+    C compositor(picture);
+    ItemWalk<C> walk(picture, compositor);
+    for (std::uint32_t index : items)
+        walk.item(picture.items[index]);
+    walk.finish();
+    return compositor;
+}
+
+// The asset's modes are numbered like the scene's: they are cast, not looked up.
+static_assert(static_cast<int>(asset::Blend::PlusLighter) ==
+                  static_cast<int>(scene::BlendMode::PlusLighter) &&
+              static_cast<int>(asset::Blend::HardLight) == static_cast<int>(scene::BlendMode::HardLight));
+
 }  // namespace
+
+float maskFactor(GroupRole role, const glm::vec4& mask) { return asset::maskFactor(popOf(role), mask); }
+
+asset::Blend blendOf(scene::BlendMode mode) { return static_cast<asset::Blend>(mode); }
 
 std::vector<std::uint8_t> clippedGroups(const LoweredScene& picture) {
     std::vector<std::uint8_t> clipped(picture.groups.size());
@@ -215,13 +273,11 @@ PaintId composite(const LoweredScene& picture, std::span<const std::uint32_t> it
 }
 
 PaintProgram compositeItems(const LoweredScene& picture, std::span<const std::uint32_t> items) {
-    limits::check();
-    Compositor compositor(picture);
-    ItemWalk<Compositor> walk(picture, compositor);
-    for (std::uint32_t index : items)
-        walk.item(picture.items[index]);
-    walk.finish();
-    return compositor.result().steps;
+    return composited<Compositor>(picture, items).result().steps;
+}
+
+glm::vec4 compositeColors(const LoweredScene& picture, std::span<const std::uint32_t> items) {
+    return composited<ColorCompositor>(picture, items).result();
 }
 
 }  // namespace vtm::compiler

@@ -8,8 +8,11 @@
 #include <span>
 #include <vector>
 
+#include <glm/vec4.hpp>
+
 #include "compiler/lower/lowered_scene.hpp"
 #include "compiler/paint/palette.hpp"
+#include "compiler/tree/tree.hpp"
 
 namespace vtm::compiler {
 
@@ -20,9 +23,35 @@ PaintId composite(const LoweredScene& picture, std::span<const std::uint32_t> it
 
 /// The paint of exactly the given items (ascending), clips aside.
 PaintProgram compositeItems(const LoweredScene& picture, std::span<const std::uint32_t> items);
+/// The same of items that are colours.
+glm::vec4 compositeColors(const LoweredScene& picture, std::span<const std::uint32_t> items);
+
+/// What a mask leaves of what lies below it.
+float maskFactor(GroupRole role, const glm::vec4& mask);
+
+/// The asset's modes are numbered like the scene's.
+asset::Blend blendOf(scene::BlendMode mode);
 
 /// By group: whether it or one round it has a clip.
 std::vector<std::uint8_t> clippedGroups(const LoweredScene& picture);
+
+/// How far a clip lets a place through, given how far coverOf(layer) covers it.
+template <class CoverOf>
+Cover clipCover(const LoweredScene& picture, std::uint32_t clip, const CoverOf& coverOf) {
+    // Cover is ordered Out < Edge < In: a union covers like its best term, an intersection like its worst.
+    if (clip == noIndex)
+        return Cover::In;
+    const ClipExpression& e = picture.clips[clip];
+    Cover any = Cover::Out;
+    for (const ClipExpression::Term& term : e.terms) {
+        const Cover cover = coverOf(term.layer);
+        const Cover own = !term.inverted || cover == Cover::Edge ? cover
+                          : cover == Cover::In                   ? Cover::Out
+                                                                 : Cover::In;
+        any = std::max(any, std::min(own, clipCover(picture, term.clip, coverOf)));
+    }
+    return std::min(any, clipCover(picture, e.outer, coverOf));
+}
 
 /// Whether a clip lets a point through, given what `inside(layer)` says of it.
 template <class Inside>

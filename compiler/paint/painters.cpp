@@ -61,26 +61,8 @@ bool PicturePainter::stackSolids(std::span<const std::uint32_t> layers,
     return true;
 }
 
-namespace {
-
-Cover termCover(const ClipExpression::Term& term, const std::vector<Cover>& covers) {
-    const Cover cover = covers[term.layer];
-    if (!term.inverted || cover == Cover::Edge)
-        return cover;
-    return cover == Cover::In ? Cover::Out : Cover::In;
-}
-
-}  // namespace
-
-// Cover is ordered Out < Edge < In: a union covers like its best term, an intersection like its worst.
 Cover PicturePainter::clipCover(std::uint32_t clip, const std::vector<Cover>& covers) const {
-    if (clip == noIndex)
-        return Cover::In;
-    const ClipExpression& e = picture_.clips[clip];
-    Cover any = Cover::Out;
-    for (const ClipExpression::Term& term : e.terms)
-        any = std::max(any, std::min(termCover(term, covers), clipCover(term.clip, covers)));
-    return std::min(any, clipCover(e.outer, covers));
+    return compiler::clipCover(picture_, clip, [&](std::uint32_t layer) { return covers[layer]; });
 }
 
 Cover PicturePainter::groupCover(std::uint32_t group, const std::vector<Cover>& covers) const {

@@ -152,6 +152,21 @@ TEST_P(BothModes, blendModesSeeWhatLiesBelow) {
     expectNear(pixel(picture(root), 20, 20, GetParam()), {0.5f, 0.5f, 0.25f, 1});
 }
 
+TEST(Compile, coloursThatAreBlendedOrMaskedAreColours) {
+    Group blended = group({rect({0, 0}, {40, 40}, Color{0.5f, 1, 0.5f, 0.5f})});
+    blended.blend = scene::BlendMode::Multiply;
+    Group masked = group({rect({20, 20}, {64, 64}, green)});
+    auto mask = std::make_shared<scene::Mask>();
+    mask->linear = true;
+    mask->content = std::make_shared<Group>(group({rect({20, 20}, {50, 50}, Color{0.5f, 1, 0.5f, 1})}));
+    masked.mask = mask;
+    Group root = group({rect({0, 0}, {64, 64}, Color{1, 0.5f, 0.5f, 1})});
+    root.children.push_back({blended});
+    root.children.push_back({masked});
+    for (const asset::Paint& paint : compile(picture(root)).asset.paints)
+        EXPECT_FALSE(asset::isProgram(paint));
+}
+
 TEST_P(BothModes, blendModesSeeWhatWasFiltered) {
     Group filtered = group({rect({0, 0}, {64, 64}, Color{1, 0.5f, 0.5f, 1})});
     const scene::FilterPrimitive offset{scene::OffsetFilter{}, {{}}, {0, 0}, {64, 64}, false};

@@ -268,7 +268,7 @@ TEST(Session, editsMoreStacksThanTheFormatHasPaints) {
     expectFresh(session, scene, options);
 }
 
-/// Translucent groups in each other, each with a second item: they cannot be folded.
+/// Translucent groups in each other, each with a gradient below: they cannot be folded.
 Group nested(int depth) {
     Group group;
     group.opacity = 0.5f;
@@ -276,8 +276,10 @@ Group nested(int depth) {
     if (depth > 0)
         group.children.push_back({nested(depth - 1)});
     for (scene::Node& node : group.children)
-        if (auto* item = std::get_if<Item>(&node.value))
+        if (auto* item = std::get_if<Item>(&node.value)) {
             item->path = std::make_shared<scene::Path>(scene::rectangle({0, 0}, {double(columns), 9}));
+            item->paint = scene::LinearGradient{{0, 0}, {columns, 0}, {{0, {1, 0, 0, 1}}, {1, {0, 0, 1, 1}}}};
+        }
     group.blend = scene::BlendMode::Multiply;
     return group;
 }

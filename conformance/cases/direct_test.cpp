@@ -142,16 +142,29 @@ std::string crossingLines(int count, const char* rule) {
     return path + "Z\"/>";
 }
 
-std::string stackedCircles(int count) {
+std::string stackedCircles(int count, const char* style = "fill-opacity:.5") {
     Numbers numbers;
     std::string circles;
     for (int i = 0; i < count; ++i) {
         const double x = numbers.between(), y = numbers.between();
-        circles +=
-            fmt::format("<circle cx=\"{:.3f}\" cy=\"{:.3f}\" r=\"4\" fill=\"#{:06x}\" fill-opacity=\".5\"/>",
-                        x, y, numbers.color());
+        circles += fmt::format("<circle cx=\"{:.3f}\" cy=\"{:.3f}\" r=\"4\" fill=\"#{:06x}\" style=\"{}\"/>",
+                               x, y, numbers.color(), style);
     }
     return circles;
+}
+
+/// Each with a clip of its own, which lets through all of it, nothing or a part.
+std::string clippedRectangles(int count) {
+    Numbers numbers;
+    std::string rectangles = "<clipPath id=\"c\"><circle cx=\"32\" cy=\"32\" r=\"20\"/></clipPath>";
+    for (int i = 0; i < count; ++i) {
+        const double x = numbers.between(), y = numbers.between(), turn = numbers.between();
+        rectangles += fmt::format(
+            "<rect x=\"{:.3f}\" y=\"{:.3f}\" width=\"3\" height=\"3\" transform=\"rotate({:.2f} 30 30)\" "
+            "fill=\"#{:06x}\" fill-opacity=\".5\" clip-path=\"url(#c)\"/>",
+            x, y, turn, numbers.color());
+    }
+    return rectangles;
 }
 
 /// Each with a gradient across its own box.
@@ -197,6 +210,28 @@ double differenceFromLarger(const scene::Scene& scene, int times) {
 TEST(DrawnOnce, DensePicturesAreTheMeansOfLargerOnes) {
     EXPECT_LE(differenceFromLarger(sceneOf(crossingLines(2000, "evenodd")), 4), 1.0);
     EXPECT_LE(differenceFromLarger(sceneOf(stackedCircles(10000)), 4), 1.0);
+    EXPECT_LE(differenceFromLarger(sceneOf(stackedCircles(1000, "mix-blend-mode:multiply")), 4), 1.0);
+    EXPECT_LE(differenceFromLarger(sceneOf(clippedRectangles(5000)), 4), 1.0);
+}
+
+/// Beside what they clip, round it, round it with a hole there, and across it.
+TEST(DrawnOnce, ClipsThatDoNotMeetWhatTheyClipLetAllOfItThroughOrNothing) {
+    for (const char* clip :
+         {"M0,0H9V64H0Z", "M55,0H64V64H55Z", "M0,0H64V9H0Z", "M5,5H60V60H5Z", "M5,5H60V60H5ZM10,10H50V50H10Z",
+          "M5,5H60V60H5ZM10,10H50V50H10ZM9,9H51V51H9Z", "M0,0L64,30V64H0Z", "M20,20H40V40H20Z"})
+        for (const char* rule : {"evenodd", "nonzero"})
+            for (const char* inner :
+                 {"", "<clipPath id=\"i\"><circle cx=\"30\" cy=\"30\" r=\"29\"/></clipPath>"}) {
+                const scene::Scene scene = sceneOf(fmt::format(
+                    "{0}<clipPath id=\"c\" clip-path=\"url(#i)\"><path clip-rule=\"{1}\" "
+                    "d=\"{2}\"/></clipPath>"
+                    "<g clip-path=\"url(#c)\"><circle cx=\"30\" cy=\"30\" r=\"15\" fill=\"#e33\"/></g>"
+                    "<g opacity=\".5\" clip-path=\"url(#c)\"><rect x=\"20\" y=\"20\" width=\"4\" "
+                    "height=\"20\"/>"
+                    "</g>",
+                    inner, rule, clip));
+                compareDrawings(scene, fmt::format("{} {} {}", clip, rule, inner));
+            }
 }
 
 /// A hundred edges and a thousand crossings in a pixel: level steps misplace triangles in both pictures.
@@ -282,10 +317,10 @@ std::string nearlyEqualCircles(int count) {
     return circles;
 }
 
-/// In a clip that is larger than the picture nothing is hidden: no layer is known to cover all of its inside.
+/// In a clip that leaves out a corner nothing is hidden: no layer is known to cover all of its inside.
 TEST(DrawnOnce, HiddenOutlinesChangeNothing) {
     const std::string circles = nearlyEqualCircles(20000);
-    const std::string clip = "<clipPath id=\"c\"><path d=\"M-9,-9H99V99H-9Z\"/></clipPath>";
+    const std::string clip = "<clipPath id=\"c\"><path d=\"M29,-9H99V99H-9V29Z\"/></clipPath>";
     const scene::Scene plain = sceneOf(circles),
                        clipped = sceneOf(clip + "<g clip-path=\"url(#c)\">" + circles + "</g>");
     const image::Raster some = compiler::ViewDrawing::make(plain, wholePicture(plain, 64))->draw(),
