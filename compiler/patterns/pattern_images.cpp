@@ -144,8 +144,12 @@ std::optional<PatternImages::Drawn> PatternImages::drawn(const scene::Pattern& p
                                                          const Affine& toPicture, Box box) {
     const Point more = room * (box.max - box.min) + 1 / scale_;
     box = {box.min - more, box.max + more};
-    const Point size = glm::clamp(glm::ceil(scale_ * (box.max - box.min)), 1.0, maxSide);
-    if (!(pixels_ + size.x * size.y <= maxPixels))
+    Point size = glm::clamp(glm::ceil(scale_ * (box.max - box.min)), 1.0, maxSide);
+    // The first four that are as large as the picture have all pixels, the others fewer and fewer.
+    const double most = (maxPixels - pixels_) / 4;
+    if (size.x * size.y > most)
+        size = glm::max(glm::floor(size * std::sqrt(most / (size.x * size.y))), 1.0);
+    if (!(size.x * size.y <= maxPixels - pixels_))
         return std::nullopt;
     pixels_ += size.x * size.y;
     const Point period = pattern.max - pattern.min;

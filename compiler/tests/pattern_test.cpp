@@ -1,6 +1,8 @@
 // Patterns of many tiles, and of many tiles in tiles.
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -171,6 +173,24 @@ TEST(ManyTiles, NestedDeepEnd) {
     }
     const Result result = compiled(picture({filled(scene::rectangle({0, 0}, {side, side}), pattern)}));
     EXPECT_NEAR(mean(drawn(result, 128)), 0.5, 4e-3);
+}
+
+/// All images together have a number of pixels: the more patterns, the coarser, but none is left out.
+TEST(ManyTiles, OfManyPatternsAreCoarser) {
+    constexpr int patterns = 32;
+    constexpr double row = side / (2 * patterns);
+    std::vector<Item> items;
+    for (int i = 0; i < patterns; ++i) {
+        Path rows;  // far apart, so that the image has half the picture
+        for (const double top : {i * row, (i + patterns) * row})
+            std::ranges::copy(scene::rectangle({0, top}, {side, top + row}), std::back_inserter(rows));
+        items.push_back(filled(std::move(rows), stripes(0.5 + 0.01 * i)));
+    }
+    const Result result = compiled(picture(std::move(items)), asset::Mode::Compat);
+    EXPECT_EQ(result.asset.images.size(), std::size_t(patterns));
+    ASSERT_EQ(result.warnings.size(), 1u);
+    EXPECT_NE(result.warnings[0].find("is drawn as an image"), std::string::npos) << result.warnings[0];
+    EXPECT_NEAR(mean(drawn(result, 64)), 0.5, 0.01);
 }
 
 TEST(ManyTiles, FillsShareTheirImage) {
