@@ -4,12 +4,14 @@
 #include <vtm/compiler/draw_view.hpp>
 
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
 #include <vtm/asset/container.hpp>
+#include <vtm/raster/evaluator.hpp>
 
 namespace vtm::compiler {
 namespace {
@@ -46,6 +48,52 @@ scene::Scene blobs(int count) {
     return scene;
 }
 
+/// Stars with round points, of so many kinds, each in many places.
+scene::Scene stars(int kinds) {
+    std::vector<std::shared_ptr<const scene::Path>> paths;
+    for (int points = 5; points < 5 + kinds; ++points) {
+        const auto at = [&](double turn, double radius) {
+            return radius * Point(std::cos(turn), std::sin(turn));
+        };
+        scene::Path path{scene::MoveTo{at(0, 1)}};
+        const double turn = 2 * std::numbers::pi / points;
+        for (int i = 0; i < points; ++i)
+            path.push_back(
+                scene::CubicTo{at((i + 0.2) * turn, 0.3), at((i + 0.8) * turn, 0.4), at((i + 1) * turn, 1)});
+        path.push_back(scene::Close{});
+        paths.push_back(std::make_shared<const scene::Path>(std::move(path)));
+    }
+    std::mt19937 random(3);
+    scene::Scene scene{100, 100, {}};
+    for (int i = 0; i < 1600; ++i) {
+        scene::Item item;
+        item.path = paths[random() % paths.size()];
+        item.transform = scene::translation(1.25 + 2.45 * (i % 40), 1.25 + 2.45 * double(i / 40));
+        item.paint = scene::Color{float(i % 3) / 2, 0, 0, 1};
+        scene.root.children.push_back({std::move(item)});
+    }
+    return scene;
+}
+
+/// Groups with filters, which are drawn at once, some of them in each other.
+scene::Scene filtered() {
+    scene::Scene scene{100, 100, {}};
+    for (int i = 0; i < 12; ++i) {
+        scene::Group group = blobs(20 + i).root;
+        const scene::FilterPrimitive blur{
+            scene::GaussianBlurFilter{0.3f * float(i % 4), 0.5f}, {{}}, {-10, -10}, {110, 110}, i % 2 == 0};
+        group.filter =
+            std::make_shared<scene::Filter>(scene::Filter{scene::identity, {-10, -10}, {110, 110}, {blur}});
+        group.opacity = 0.8f;
+        scene.root.children.push_back({group});
+        scene::Group outer;
+        outer.children = {{group}, {blobs(10).root}, {group}};
+        outer.blend = i % 3 == 0 ? scene::BlendMode::Multiply : scene::BlendMode::Normal;
+        scene.root.children.push_back({std::move(outer)});
+    }
+    return scene;
+}
+
 template <class Make>
 auto madeBy(int threads, const Make& make) {
     decltype(make()) made;
@@ -61,6 +109,32 @@ TEST(Threads, CompileToTheSameBytes) {
         const auto bytes = [&] { return asset::write(compile(scene, options).asset); };
         EXPECT_EQ(madeBy(1, bytes), madeBy(5, bytes));
     }
+}
+
+TEST(Threads, CompileRepeatsToTheSameBytes) {
+    const scene::Scene scene = stars(30);
+    const auto bytes = [&] { return asset::write(compile(scene).asset); };
+    EXPECT_EQ(madeBy(1, bytes), madeBy(5, bytes));
+    EXPECT_GE(compile(scene).asset.symbols.size(), 30u);
+}
+
+TEST(Threads, DrawTheSameFilters) {
+    const scene::Scene scene = filtered();
+    asset::View view{500, 500, {}};
+    view.toPixels = {5, 0.3, -0.3, 5, 0, 0};
+    const auto once = [&] {
+        std::vector<std::uint8_t> pixels(500 * 500 * 4);
+        ViewDrawing::make(scene, view)->draw({pixels.data(), 500 * 4});
+        return pixels;
+    };
+    EXPECT_EQ(madeBy(1, once), madeBy(5, once));
+    const asset::Asset asset = compile(scene).asset;
+    const auto again = [&] {
+        std::vector<std::uint8_t> pixels(500 * 500 * 4);
+        asset::Evaluator(asset).draw(view, {pixels.data(), 500 * 4});
+        return pixels;
+    };
+    EXPECT_EQ(madeBy(1, again), madeBy(5, again));
 }
 
 TEST(Threads, DrawTheSameView) {

@@ -126,16 +126,18 @@ Layer alongRows(const Layer& layer, const std::vector<float>& kernel, int left, 
     // A row of the layer with what the result's pixels read beside it, transparent.
     const int reach = int(kernel.size()) - 1, first = left - reach;
     const std::vector<Float4> weights = spread(kernel);
-    std::vector<Float4> row(std::size_t(right - left + 2 * (reach + atOnce))),
-        blurred(std::size_t(right - left + atOnce));
     const int from = std::max(first, layer.box.min.x), to = std::min(right + reach, layer.box.max.x);
-    for (int y = box.min.y; y < box.max.y; ++y) {
-        limits::check();
-        if (from < to)
-            std::copy_n(layer.row(y) + (from - layer.box.min.x), to - from, row.begin() + (from - first));
-        convolveRow(row.data(), weights, blurred.data(), right - left);
-        std::copy_n(blurred.begin(), right - left, result.row(y));
-    }
+    byRows(box, [&](const PixelBox& part) {
+        std::vector<Float4> row(std::size_t(right - left + 2 * (reach + atOnce))),
+            blurred(std::size_t(right - left + atOnce));
+        for (int y = part.min.y; y < part.max.y; ++y) {
+            limits::check();
+            if (from < to)
+                std::copy_n(layer.row(y) + (from - layer.box.min.x), to - from, row.begin() + (from - first));
+            convolveRow(row.data(), weights, blurred.data(), right - left);
+            std::copy_n(blurred.begin(), right - left, result.row(y));
+        }
+    });
     return result;
 }
 
@@ -175,16 +177,20 @@ Layer alongColumns(const Layer& layer, const std::vector<float>& kernel, int top
     std::vector<float> weights(2 * kernel.size() - 1);
     for (int k = -reach; k <= reach; ++k)
         weights[std::size_t(k + reach)] = kernel[std::size_t(std::abs(k))];
-    for (int y = top; y < bottom && width > 0; ++y) {
-        limits::check();
-        const int low = std::max(y - reach, layer.box.min.y), end = std::min(y + reach + 1, layer.box.max.y);
-        if (low < end)
-            convolveColumns(layer.row(low), width,
-                            std::span(weights).subspan(std::size_t(low - y + reach), std::size_t(end - low)),
-                            result.row(y), width);
-        else
-            std::fill_n(result.row(y), width, Float4{});
-    }
+    byRows(box, [&](const PixelBox& part) {
+        for (int y = part.min.y; y < part.max.y; ++y) {
+            limits::check();
+            const int low = std::max(y - reach, layer.box.min.y),
+                      end = std::min(y + reach + 1, layer.box.max.y);
+            if (low < end)
+                convolveColumns(
+                    layer.row(low), width,
+                    std::span(weights).subspan(std::size_t(low - y + reach), std::size_t(end - low)),
+                    result.row(y), width);
+            else
+                std::fill_n(result.row(y), width, Float4{});
+        }
+    });
     return result;
 }
 
@@ -208,27 +214,31 @@ Layer enlargedRows(const Layer& coarse, int step, int left, int right) {
     std::vector<Spline> splines;
     for (int x = left; x < right; ++x)
         splines.push_back(splineAt(x, step));
-    for (int y = result.box.min.y; y < result.box.max.y && !result.empty(); ++y) {
-        limits::check();
-        Float4* to = result.row(y);
-        for (const Spline& spline : splines) {
-            const Float4* from = coarse.row(y) + (spline.first - coarse.box.min.x);
-            const auto& w = spline.weights;
-            *to++ = w[0] * from[0] + w[1] * from[1] + w[2] * from[2] + w[3] * from[3];
+    byRows(result.box, [&](const PixelBox& part) {
+        for (int y = part.min.y; y < part.max.y; ++y) {
+            limits::check();
+            Float4* to = result.row(y);
+            for (const Spline& spline : splines) {
+                const Float4* from = coarse.row(y) + (spline.first - coarse.box.min.x);
+                const auto& w = spline.weights;
+                *to++ = w[0] * from[0] + w[1] * from[1] + w[2] * from[2] + w[3] * from[3];
+            }
         }
-    }
+    });
     return result;
 }
 
 /// The same along columns.
 Layer enlargedColumns(const Layer& coarse, int step, int top, int bottom) {
     Layer result = Layer::unwritten({{coarse.box.min.x, top}, {coarse.box.max.x, bottom}}, coarse.linear);
-    for (int y = top; y < bottom && !result.empty(); ++y) {
-        limits::check();
-        const Spline spline = splineAt(y, step);
-        convolveColumns(coarse.row(spline.first), coarse.width(), spline.weights, result.row(y),
-                        result.width());
-    }
+    byRows(result.box, [&](const PixelBox& part) {
+        for (int y = part.min.y; y < part.max.y; ++y) {
+            limits::check();
+            const Spline spline = splineAt(y, step);
+            convolveColumns(coarse.row(spline.first), coarse.width(), spline.weights, result.row(y),
+                            result.width());
+        }
+    });
     return result;
 }
 

@@ -9,6 +9,7 @@
 #include <vtm/raster/pixel_box.hpp>
 #include "raster/src/float4.hpp"
 #include "raster/src/pixel_memory.hpp"
+#include "raster/src/row_parts.hpp"
 
 namespace vtm::asset {
 
@@ -86,11 +87,13 @@ private:
 template <class Change>
 Layer changed(const Layer& input, const PixelBox& box, bool linear, Change change) {
     Layer result = Layer::unwritten(box, linear);
-    LayerRows rows(input, box);
-    for (int y = box.min.y; y < box.max.y && !result.empty(); ++y) {
-        const Float4* from = rows(y);
-        std::transform(from, from + box.width(), result.row(y), change);
-    }
+    byRows(box, [&](const PixelBox& part) {
+        LayerRows rows(input, part);
+        for (int y = part.min.y; y < part.max.y; ++y) {
+            const Float4* from = rows(y);
+            std::transform(from, from + part.width(), result.row(y), change);
+        }
+    });
     return result;
 }
 

@@ -18,11 +18,13 @@ namespace {
 template <class Combine>
 Layer combined(const FilterStep& step, const PixelBox& box, Combine combine) {
     Layer result = Layer::unwritten(box.intersection(step.box), step.linear);
-    LayerRows first(*step.inputs[0], result.box), second(*step.inputs[1], result.box);
-    for (int y = result.box.min.y; y < result.box.max.y && !result.empty(); ++y) {
-        const Float4* a = first(y);
-        std::transform(a, a + result.width(), second(y), result.row(y), combine);
-    }
+    byRows(result.box, [&](const PixelBox& part) {
+        LayerRows first(*step.inputs[0], part), second(*step.inputs[1], part);
+        for (int y = part.min.y; y < part.max.y; ++y) {
+            const Float4* a = first(y);
+            std::transform(a, a + part.width(), second(y), result.row(y), combine);
+        }
+    });
     return result;
 }
 
@@ -176,12 +178,14 @@ Layer merge(const FilterStep& step) {
     Layer result(joinedBox(step).intersection(step.box), step.linear);
     for (const Layer* input : step.inputs) {
         const PixelBox both = result.box.intersection(input->box);
-        for (int y = both.min.y; y < both.max.y && !both.empty(); ++y) {
-            const Float4* from = input->row(y) + (both.min.x - input->box.min.x);
-            Float4* to = result.row(y) + (both.min.x - result.box.min.x);
-            for (int x = 0; x < both.width(); ++x)
-                to[x] = over(from[x], to[x]);
-        }
+        byRows(both, [&](const PixelBox& part) {
+            for (int y = part.min.y; y < part.max.y; ++y) {
+                const Float4* from = input->row(y) + (part.min.x - input->box.min.x);
+                Float4* to = result.row(y) + (part.min.x - result.box.min.x);
+                for (int x = 0; x < part.width(); ++x)
+                    to[x] = over(from[x], to[x]);
+            }
+        });
     }
     return result;
 }

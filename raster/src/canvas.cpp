@@ -80,16 +80,18 @@ image::Raster Canvas::toRaster() const {
 
 void Canvas::toBytes(const ByteTarget& target) const {
     const ByteStore store(target, view_.width);
-    for (int y = 0; y < view_.height; ++y) {
-        const PixelRun drawn = run(y);
-        if (drawn.empty()) {
-            store(y, 0, view_.width, Float4{});
-            continue;
+    byRows(whole(), [&](const PixelBox& part) {
+        for (int y = part.min.y; y < part.max.y; ++y) {
+            const PixelRun drawn = run(y);
+            if (drawn.empty()) {
+                store(y, 0, view_.width, Float4{});
+                continue;
+            }
+            store(y, 0, drawn.first, Float4{});
+            store(y, drawn.first, {at(y, drawn.first), at(y, drawn.end)});
+            store(y, drawn.end, view_.width, Float4{});
         }
-        store(y, 0, drawn.first, Float4{});
-        store(y, drawn.first, {at(y, drawn.first), at(y, drawn.end)});
-        store(y, drawn.end, view_.width, Float4{});
-    }
+    });
 }
 
 void Canvas::giveRows(int first, int end, const std::function<void(std::span<const float>)>& take) const {

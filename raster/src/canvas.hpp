@@ -14,6 +14,7 @@
 #include <vtm/raster/view.hpp>
 #include "raster/src/float4.hpp"
 #include "raster/src/pixel_memory.hpp"
+#include "raster/src/row_parts.hpp"
 
 namespace vtm::asset {
 
@@ -108,15 +109,17 @@ template <class Change>
 void combine(const Canvas& from, Canvas& to, Change change) {
     const PixelBox box = from.bounds();
     to.reserve(box);
-    for (int y = box.min.y; y < box.max.y; ++y) {
-        const PixelRun run = from.run(y);
-        if (run.empty())
-            continue;
-        const Float4* source = from.at(y, run.first);
-        Float4* target = to.extend(y, run);
-        for (int x = 0; x < run.end - run.first; ++x)
-            target[x] = change(target[x], source[x]);
-    }
+    byRows(box, [&](const PixelBox& part) {
+        for (int y = part.min.y; y < part.max.y; ++y) {
+            const PixelRun run = from.run(y);
+            if (run.empty())
+                continue;
+            const Float4* source = from.at(y, run.first);
+            Float4* target = to.extend(y, run);
+            for (int x = 0; x < run.end - run.first; ++x)
+                target[x] = change(target[x], source[x]);
+        }
+    });
 }
 
 }  // namespace vtm::asset

@@ -1,12 +1,15 @@
 #include <vtm/raster/evaluate.hpp>
 
 #include <algorithm>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -146,15 +149,27 @@ public:
         push(view);
     }
 
+    /// What is pushed does not depend on what is below: several such pictures are drawn at once, and then
+    /// popped in their order.
     void execute(std::span<const Command> commands) {
+        PushedPictures ahead;
         while (!commands.empty()) {
             limits::check();
-            const bool lays = maps_ && laysMap(commands);
-            if (lays)
+            std::size_t done = 1;
+            if (maps_ && laysMap(commands)) {
                 layMap(commands[1], commands[2].opacity);
-            else
+                done = 3;
+            } else if (commands[0].kind == Command::Kind::Push && mayDrawAhead()) {
+                if (ahead.empty())
+                    ahead = drawAhead(commands);
+                pictures_.push_back({std::move(ahead.front().canvas)});
+                pop(ahead.front().pop());
+                done = ahead.front().commands.size();
+                ahead.pop_front();
+            } else {
                 execute(commands[0]);
-            commands = commands.subspan(lays ? 3 : 1);
+            }
+            commands = commands.subspan(done);
         }
     }
     Canvas take() { return std::move(top().canvas); }
@@ -187,6 +202,83 @@ private:
     }
     Picture& top() { return pictures_.back(); }
     void push(const View& view) { pictures_.push_back({Canvas(view)}); }
+
+    // ---- Several pictures at once ----
+
+    /// From a Push to what pops it.
+    struct PushedPicture {
+        std::span<const Command> commands;
+        Canvas canvas;
+
+        const Command& pop() const { return commands.back(); }
+        std::span<const Command> inner() const { return commands.subspan(1, commands.size() - 2); }
+    };
+    using PushedPictures = std::deque<PushedPicture>;
+
+    /// Whether the same picture is on top afterwards, or once what it pushes is popped.
+    static bool staysOnTop(const Command& command) {
+        switch (command.kind) {
+            case Command::Kind::DrawMap:
+            case Command::Kind::FillMask:
+            case Command::Kind::ClipMask:
+            case Command::Kind::Push:
+                return true;
+            default:
+                return false;
+        }
+    }
+    /// From the first, which pushes, to that which pops what it pushed.
+    std::size_t countToPop(std::span<const Command> commands) const {
+        std::size_t pictures = 0, count = 0;
+        do {
+            const Command& command = commands[count++];
+            switch (command.kind) {
+                case Command::Kind::DrawMap:
+                case Command::Kind::FillMask:
+                case Command::Kind::ClipMask:
+                    break;
+                case Command::Kind::Push:
+                case Command::Kind::PushInput:
+                    ++pictures;
+                    break;
+                case Command::Kind::Filter:
+                    pictures -= paints_.asset().filters[command.map].pictures - 1;
+                    break;
+                default:
+                    --pictures;
+            }
+        } while (pictures > 0);
+        return count;
+    }
+
+    /// Materials are the caller's functions, which may be made for one thread.
+    bool mayDrawAhead() const { return !materials_ && tbb::this_task_arena::max_concurrency() > 1; }
+
+    /// The next of those that are pushed on the top picture.
+    PushedPictures drawAhead(std::span<const Command> commands) const {
+        const auto most = std::size_t(2 * tbb::this_task_arena::max_concurrency());
+        const View& view = pictures_.back().canvas.view();
+        PushedPictures pushed;
+        while (!commands.empty() && pushed.size() < most && staysOnTop(commands[0])) {
+            std::size_t count = 1;
+            if (maps_ && laysMap(commands)) {
+                count = 3;
+            } else if (commands[0].kind == Command::Kind::Push) {
+                count = countToPop(commands);
+                pushed.push_back({commands.first(count), Canvas(view)});
+            }
+            commands = commands.subspan(count);
+        }
+        KeptBlocks* const blocks = KeptBlocks::ofThread();
+        tbb::parallel_for(std::size_t{0}, pushed.size(), [&, holding = limits::current()](std::size_t i) {
+            const limits::Scope scope(holding);
+            const KeptBlocks::Shared shared(blocks);
+            PictureStack stack(paints_, view, materials_, levels_, maps_);
+            stack.execute(pushed[i].inner());
+            pushed[i].canvas = stack.take();
+        });
+        return pushed;
+    }
 
     // ---- Maps ----
 

@@ -43,7 +43,13 @@ KeptBlocks::~KeptBlocks() {
         std::free(block);
 }
 
+KeptBlocks* KeptBlocks::ofThread() { return current; }
+
+KeptBlocks::Shared::Shared(KeptBlocks* blocks) : before_(std::exchange(current, blocks ? blocks : current)) {}
+KeptBlocks::Shared::~Shared() { current = before_; }
+
 void* KeptBlocks::take(std::size_t bytes) {
+    const std::lock_guard lock(mutex_);
     const auto found = free_.lower_bound(bytes);
     if (found == free_.end() || found->first > leastShare * bytes)
         return nullptr;
@@ -55,7 +61,14 @@ void* KeptBlocks::take(std::size_t bytes) {
     return block;
 }
 
+/// One that was there and was not given back here.
+void KeptBlocks::forget(void* block) {
+    const std::lock_guard lock(mutex_);
+    largest_.erase(block);
+}
+
 bool KeptBlocks::keep(void* block, std::size_t bytes) noexcept {
+    const std::lock_guard lock(mutex_);
     const auto lent = largest_.find(block);
     const std::size_t size = lent == largest_.end() ? bytes : lent->second;
     if (lent != largest_.end())
@@ -78,7 +91,7 @@ void* takeBlock(std::size_t bytes) {
     if (void* const kept = current->take(bytes))
         return kept;
     void* const block = newBlock(bytes);
-    current->largest_.erase(block);  // of a block that was there and was not given back here
+    current->forget(block);
     return block;
 }
 

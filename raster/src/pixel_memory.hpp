@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <new>
 #include <unordered_map>
 #include <utility>
@@ -14,23 +15,40 @@
 
 namespace vtm::asset {
 
-/// While it lives, large blocks of pixels that its thread frees are used again: filters make and drop a dozen
+/// While it lives, large blocks of pixels that its threads free are used again: filters make and drop a dozen
 /// rasters of one size, and a new one's pages, which the system clears one by one, cost more than filling it.
 class KeptBlocks {
 public:
+    /// For the thread that makes it.
     KeptBlocks();
     ~KeptBlocks();
     KeptBlocks(const KeptBlocks&) = delete;
     KeptBlocks& operator=(const KeptBlocks&) = delete;
+
+    /// Those of this thread; null if there are none.
+    static KeptBlocks* ofThread();
+    /// Lets another thread use them, or does nothing for null.
+    class Shared {
+    public:
+        explicit Shared(KeptBlocks* blocks);
+        ~Shared();
+        Shared(const Shared&) = delete;
+        Shared& operator=(const Shared&) = delete;
+
+    private:
+        KeptBlocks* const before_;
+    };
 
 private:
     friend void* takeBlock(std::size_t bytes);
     friend void giveBlock(void* block, std::size_t bytes) noexcept;
 
     void* take(std::size_t bytes);
+    void forget(void* block);
     bool keep(void* block, std::size_t bytes) noexcept;
 
     KeptBlocks* const outer_;
+    std::mutex mutex_;                                ///< guards what follows
     std::multimap<std::size_t, void*> free_;          ///< by their size
     std::unordered_map<void*, std::size_t> largest_;  ///< of those lent for less, their size
     std::size_t bytes_ = 0;                           ///< of free_

@@ -217,9 +217,15 @@ struct MapScanner::Impl {
     template <class Store>
     void draw(const Command& command, const View& view, const MaterialFunction& materials,
               const Store& store) {
+        const Scanned& scanned = scannedOf(command);
+        if (!materials && ParallelDrawing::pays(scanned, view)) {
+            if (!drawIfEmpty(scanned, view, store))
+                ParallelDrawing(scanned, view, pool).draw(store);
+            return;
+        }
         // An exception loses the scratch, whose sums may be half done.
         std::unique_ptr<RowScratch> scratch = pool.take();
-        drawScanned(scannedOf(command), view, materials, *scratch, store);
+        drawScanned(scanned, view, materials, *scratch, store);
         pool.giveBack(std::move(scratch));
     }
 
