@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -133,8 +134,6 @@ private:
     /// Their maps are made on all processors, and painted in their order.
     void addRepeats(std::span<const Repeat> repeats) {
         constexpr std::size_t atOnce = 256;
-        findLayers();
-        ownClips_.emplace(picture_);
         for (std::size_t first = 0; first < repeats.size(); first += atOnce) {
             std::vector<std::unique_ptr<Unpainted>> made(std::min(atOnce, repeats.size() - first));
             tbb::parallel_for(std::size_t{0}, made.size(), [&, holding = limits::current()](std::size_t i) {
@@ -403,11 +402,18 @@ private:
         return {Coord(std::lround(steps.x)), Coord(std::lround(steps.y))};
     }
 
-    void findLayers() {
-        if (!layersAt_)
-            layersAt_.emplace(picture_, lattice_.square());
+    /// Both are made when they are first asked for, by one of several threads: of a crowded picture they take
+    /// much memory, and it may have no repeat that asks.
+    const LayersAt& layersAt() const {
+        std::call_once(areLayersFound_, [this] { layersAt_.emplace(picture_, lattice_.square()); });
+        return *layersAt_;
     }
-    std::vector<std::uint32_t> layersOver(dvec2 point) const { return (*layersAt_)(onLattice(point)); }
+    const OwnClips& ownClips() const {
+        std::call_once(areClipsFound_, [this] { ownClips_.emplace(picture_); });
+        return *ownClips_;
+    }
+
+    std::vector<std::uint32_t> layersOver(dvec2 point) const { return layersAt()(onLattice(point)); }
 
     /// The layers over a point of a symbol's square, but for its own.
     std::vector<std::uint32_t> layersAround(const Candidate& candidate, std::uint32_t count,
@@ -456,7 +462,7 @@ private:
 
     bool hasClips(const Unpainted& symbol) const {
         return std::ranges::any_of(symbol.candidates, [&](const Candidate& candidate) {
-            return ownClips_->areIn({candidate.firstLayer, symbol.layerCount});
+            return ownClips().areIn({candidate.firstLayer, symbol.layerCount});
         });
     }
 
@@ -470,7 +476,7 @@ private:
             std::vector<std::vector<std::uint32_t>> visible;
             for (const Candidate& candidate : symbol.candidates)
                 visible.push_back(
-                    ownClips_->visible({candidate.firstLayer, symbol.layerCount}, symbol.sets[set]));
+                    ownClips().visible({candidate.firstLayer, symbol.layerCount}, symbol.sets[set]));
             classOf.push_back(
                 classes.try_emplace(std::move(visible), std::uint32_t(classes.size())).first->second);
         }
@@ -501,7 +507,6 @@ private:
         const std::optional<SymbolMap> bySets = maker.bySets(sets);
         if (!bySets)
             return false;
-        findLayers();
         // Blocks in the same layers have the same paints.
         std::map<std::vector<std::uint32_t>, std::size_t> known;
         std::vector<Candidate> surroundings;
@@ -783,11 +788,12 @@ private:
     limits::Place place_;     ///< of what is being looked at, for messages
     Palette& palette_;
     PicturePainter painter_;
-    std::optional<OwnClips> ownClips_;
+    mutable std::once_flag areLayersFound_, areClipsFound_;
+    mutable std::optional<OwnClips> ownClips_;
     std::vector<std::uint8_t> inside_;  ///< by layer
     std::vector<bool> isTile_;          ///< by layer: of a tile that blocks are made of
     PlacedSymbols placed_;              ///< patterns
-    std::optional<LayersAt> layersAt_;
+    mutable std::optional<LayersAt> layersAt_;
     std::vector<Symbol> symbols_;
     std::vector<Candidate> candidates_;
 };
