@@ -78,16 +78,6 @@ void move(Item& item, const Item& from, double x, double y) {
     item.transform = scene::compose(scene::translation(x, y), from.transform);
 }
 
-/// The whole picture, upright.
-asset::View wholeOf(const Scene& scene, int side) {
-    const double fit = side / std::max(scene.width, scene.height);
-    asset::View view;
-    view.width = std::max(1, int(std::lround(fit * scene.width)));
-    view.height = std::max(1, int(std::lround(fit * scene.height)));
-    view.toPixels = {fit, 0, 0, fit, 0, 0};
-    return view;
-}
-
 /// Of one edit; CPU milliseconds.
 struct Cost {
     double compiling = 0;  ///< the scene anew, in the same turn
@@ -132,7 +122,7 @@ class Editor {
 public:
     Editor(const File& file, int side)
         : scene(load(file)),
-          view(wholeOf(scene, side)),
+          view(wholePicture(scene, side)),
           session(scene),
           rowBytes_(std::size_t(view.width) * 4) {
         bytes_.resize(rowBytes_ * std::size_t(view.height));

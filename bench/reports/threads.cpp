@@ -1,7 +1,6 @@
-#include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,8 +9,7 @@
 
 #include <vtm/compiler/compile.hpp>
 #include <vtm/compiler/draw_view.hpp>
-#include <vtm/raster/evaluator.hpp>
-#include <vtm/raster/scan.hpp>
+#include "bench/engines/engine.hpp"
 #include "bench/input/files.hpp"
 #include "bench/measure/measure.hpp"
 #include "bench/reports/reports.hpp"
@@ -19,45 +17,15 @@
 namespace vtm::bench {
 namespace {
 
-/// What is asked of a picture, all of it on the CPU.
-class Steps {
-public:
-    Steps(const File& file, int side)
-        : scene_(load(file)),
-          view_(wholePicture(scene_, side)),
-          asset_(compiler::compile(scene_).asset),
-          bytes_(std::size_t(view_.width) * std::size_t(view_.height) * 4) {
-        if (asset_.filters.empty())
-            scanner_.emplace(asset_);
-        else
-            evaluator_.emplace(asset_);
-    }
-
-    void compile() const { compiler::compile(scene_); }
-    /// False where the library compiles instead.
-    bool drawOnce() {
-        const auto drawing = compiler::ViewDrawing::make(scene_, view_);
-        if (drawing)
-            drawing->draw(target());
-        return drawing != nullptr;
-    }
-    void drawAgain() {
-        if (scanner_)
-            scanner_->draw(view_, target());
-        else
-            evaluator_->draw(view_, target());
-    }
-
-private:
-    asset::ByteTarget target() { return {bytes_.data(), std::size_t(view_.width) * 4}; }
-
-    const scene::Scene scene_;
-    const asset::View view_;
-    const asset::Asset asset_;
-    std::vector<std::uint8_t> bytes_;
-    std::optional<asset::Scanner> scanner_;
-    std::optional<asset::Evaluator> evaluator_;  ///< of what has filters
-};
+/// False where the library compiles instead.
+bool drawOnce(const scene::Scene& scene, const asset::View& view, std::vector<std::uint8_t>& bytes) {
+    const std::size_t rowBytes = std::size_t(view.width) * 4;
+    bytes.resize(rowBytes * std::size_t(view.height));
+    const auto drawing = compiler::ViewDrawing::make(scene, view);
+    if (drawing)
+        drawing->draw({bytes.data(), rowBytes});
+    return drawing != nullptr;
+}
 
 }  // namespace
 
@@ -73,10 +41,16 @@ Report threads(const Options& options) {
         "quartiles.",
         options.side, tbb::this_task_arena::max_concurrency());
     tbb::task_arena one(1);
+    const Engines engines = scanEngines();
+    Engine& engine = *engines.front();
+    std::vector<std::uint8_t> bytes;
     std::map<std::string, std::vector<double>> shares;
     for (const File& file : filesOf(options)) {
         fmt::print(stderr, "{}\n", file.name);
-        Steps steps(file, options.side);
+        CompiledFile picture{file, load(file), {}};
+        picture.asset = compiler::compile(picture.scene).asset;
+        engine.load(picture);
+        const asset::View view = wholePicture(picture.scene, options.side);
         Json line = {{"file", file.name}};
         const auto measure = [&](const char* name, const std::function<void()>& step) {
             const double budget = options.quick ? 200 : 1000;
@@ -93,12 +67,12 @@ Report threads(const Options& options) {
                                    {"pairs", times.pairs}});
             shares[name].push_back(times.ratio);
         };
-        measure("compile", [&] { steps.compile(); });
-        if (steps.drawOnce())
-            measure("drawn once", [&] { steps.drawOnce(); });
+        measure("compile", [&] { compiler::compile(picture.scene); });
+        if (drawOnce(picture.scene, view, bytes))
+            measure("drawn once", [&] { drawOnce(picture.scene, view, bytes); });
         else
             line["drawn once"] = "-";
-        measure("drawn again", [&] { steps.drawAgain(); });
+        measure("drawn again", [&] { engine.draw(view); });
         report.summary.push_back(line);
     }
     Json medians = {{"file", "median"}};

@@ -81,10 +81,6 @@ public:
     /// Whether an item's layer is inside, and inside its clips.
     bool isShown(std::uint32_t layer) const { return isInside(layer) && !isClippedAway(layer); }
     bool isClipped(std::uint32_t layer) const { return shades_[layer].isClipped; }
-    /// Whether it is laid over what is below it, alone.
-    bool isLaidOver(std::uint32_t layer) const {
-        return shades_[layer].isLaidOver && shades_[layer].group == noIndex;
-    }
     /// Whether a layer is only where its winding number is odd.
     bool isEvenOdd(std::uint32_t layer) const { return layers_[layer].mask == 1; }
 

@@ -29,6 +29,17 @@ int largestDifference(const Bytes& a, const Bytes& b) {
     return largest;
 }
 
+/// Returns how many pixels were drawn.
+template <class Engine>
+std::size_t drawChanges(const Engine& engine, const Session& session, const asset::View& view, Bytes& bytes) {
+    std::size_t pixels = 0;
+    for (const asset::PixelBox& box : asset::changedPixels(view, session.difference())) {
+        engine.drawBox(view, box, bytes.target());
+        pixels += box.area();
+    }
+    return pixels;
+}
+
 /// Keeps a scanner and a picture, as a program does that shows what is edited.
 class Shown {
 public:
@@ -40,12 +51,7 @@ public:
     /// Returns how many pixels were drawn.
     std::size_t update(const Session& session) {
         scanner_.update(session.result().asset, session.difference());
-        std::size_t pixels = 0;
-        for (const asset::PixelBox& box : asset::changedPixels(view_, session.difference())) {
-            scanner_.drawBox(view_, box, bytes_.target());
-            pixels += box.area();
-        }
-        return pixels;
+        return drawChanges(scanner_, session, view_, bytes_);
     }
 
     /// The picture, and what its scanner draws as a whole, are those of a new scanner.
@@ -73,12 +79,7 @@ public:
     /// Returns how many pixels were drawn.
     std::size_t update(const Session& session) {
         const asset::Evaluator evaluator(session.result().asset);
-        std::size_t pixels = 0;
-        for (const asset::PixelBox& box : asset::changedPixels(view_, session.difference())) {
-            evaluator.drawBox(view_, box, bytes_.target());
-            pixels += box.area();
-        }
-        return pixels;
+        return drawChanges(evaluator, session, view_, bytes_);
     }
 
     void expectFresh(const Session& session) const {
@@ -98,46 +99,38 @@ asset::View view(int size, double scale, double shear) {
     return {size, size, {scale, shear * scale, -shear * scale, scale, 3.3, 1.7}};
 }
 
+/// Random edits, in pictures that are kept up to date.
+template <class Kept>
+void expectShown(test::RandomEditor editor) {
+    Session session(editor.scene());
+    Kept upright(session, view(100, 1.3, 0)), turned(session, view(60, 0.7, 0.4)),
+        small(session, view(12, 0.15, -0.1));
+    std::string history;
+    for (int i = 0; i < 25 && !testing::Test::HasFailure(); ++i) {
+        history += editor.edit() + ", ";
+        session.update(editor.scene());
+        for (Kept* shown : {&upright, &turned, &small}) {
+            shown->update(session);
+            shown->expectFresh(session);
+        }
+    }
+    EXPECT_FALSE(testing::Test::HasFailure()) << history;
+}
+
 class ShownEdits : public testing::TestWithParam<std::tuple<unsigned, int>> {};
 INSTANTIATE_TEST_SUITE_P(SeedAndItems, ShownEdits,
                          testing::Combine(testing::Range(0u, 4u), testing::Values(6, 60)));
 
 TEST_P(ShownEdits, AreDrawnWhereTheyAre) {
     const auto [seed, items] = GetParam();
-    test::RandomEditor editor(seed, items);
-    Session session(editor.scene());
-    Shown upright(session, view(100, 1.3, 0)), turned(session, view(60, 0.7, 0.4)),
-        small(session, view(12, 0.15, -0.1));
-    std::string history;
-    for (int i = 0; i < 25 && !HasFailure(); ++i) {
-        history += editor.edit() + ", ";
-        session.update(editor.scene());
-        for (Shown* shown : {&upright, &turned, &small}) {
-            shown->update(session);
-            shown->expectFresh(session);
-        }
-    }
-    EXPECT_FALSE(HasFailure()) << history;
+    expectShown<Shown>({seed, items});
 }
 
 class ShownFilters : public testing::TestWithParam<unsigned> {};
 INSTANTIATE_TEST_SUITE_P(Seed, ShownFilters, testing::Range(0u, 8u));
 
 TEST_P(ShownFilters, AreDrawnWhereTheyAre) {
-    test::RandomEditor editor(GetParam(), 30, test::RandomEditor::Filters::Some);
-    Session session(editor.scene());
-    ShownByEvaluator upright(session, view(100, 1.3, 0)), turned(session, view(60, 0.7, 0.4)),
-        small(session, view(12, 0.15, -0.1));
-    std::string history;
-    for (int i = 0; i < 25 && !HasFailure(); ++i) {
-        history += editor.edit() + ", ";
-        session.update(editor.scene());
-        for (ShownByEvaluator* shown : {&upright, &turned, &small}) {
-            shown->update(session);
-            shown->expectFresh(session);
-        }
-    }
-    EXPECT_FALSE(HasFailure()) << history;
+    expectShown<ShownByEvaluator>({GetParam(), 30, test::RandomEditor::Filters::Some});
 }
 
 scene::Item square(scene::Point at, float red) {

@@ -177,19 +177,15 @@ Layer alongColumns(const Layer& layer, const std::vector<float>& kernel, int top
     std::vector<float> weights(2 * kernel.size() - 1);
     for (int k = -reach; k <= reach; ++k)
         weights[std::size_t(k + reach)] = kernel[std::size_t(std::abs(k))];
-    byRows(box, [&](const PixelBox& part) {
-        for (int y = part.min.y; y < part.max.y; ++y) {
-            limits::check();
-            const int low = std::max(y - reach, layer.box.min.y),
-                      end = std::min(y + reach + 1, layer.box.max.y);
-            if (low < end)
-                convolveColumns(
-                    layer.row(low), width,
-                    std::span(weights).subspan(std::size_t(low - y + reach), std::size_t(end - low)),
-                    result.row(y), width);
-            else
-                std::fill_n(result.row(y), width, Float4{});
-        }
+    eachRow(box, [&](int y) {
+        limits::check();
+        const int low = std::max(y - reach, layer.box.min.y), end = std::min(y + reach + 1, layer.box.max.y);
+        if (low < end)
+            convolveColumns(layer.row(low), width,
+                            std::span(weights).subspan(std::size_t(low - y + reach), std::size_t(end - low)),
+                            result.row(y), width);
+        else
+            std::fill_n(result.row(y), width, Float4{});
     });
     return result;
 }
@@ -214,15 +210,13 @@ Layer enlargedRows(const Layer& coarse, int step, int left, int right) {
     std::vector<Spline> splines;
     for (int x = left; x < right; ++x)
         splines.push_back(splineAt(x, step));
-    byRows(result.box, [&](const PixelBox& part) {
-        for (int y = part.min.y; y < part.max.y; ++y) {
-            limits::check();
-            Float4* to = result.row(y);
-            for (const Spline& spline : splines) {
-                const Float4* from = coarse.row(y) + (spline.first - coarse.box.min.x);
-                const auto& w = spline.weights;
-                *to++ = w[0] * from[0] + w[1] * from[1] + w[2] * from[2] + w[3] * from[3];
-            }
+    eachRow(result.box, [&](int y) {
+        limits::check();
+        Float4* to = result.row(y);
+        for (const Spline& spline : splines) {
+            const Float4* from = coarse.row(y) + (spline.first - coarse.box.min.x);
+            const auto& w = spline.weights;
+            *to++ = w[0] * from[0] + w[1] * from[1] + w[2] * from[2] + w[3] * from[3];
         }
     });
     return result;
@@ -231,13 +225,11 @@ Layer enlargedRows(const Layer& coarse, int step, int left, int right) {
 /// The same along columns.
 Layer enlargedColumns(const Layer& coarse, int step, int top, int bottom) {
     Layer result = Layer::unwritten({{coarse.box.min.x, top}, {coarse.box.max.x, bottom}}, coarse.linear);
-    byRows(result.box, [&](const PixelBox& part) {
-        for (int y = part.min.y; y < part.max.y; ++y) {
-            limits::check();
-            const Spline spline = splineAt(y, step);
-            convolveColumns(coarse.row(spline.first), coarse.width(), spline.weights, result.row(y),
-                            result.width());
-        }
+    eachRow(result.box, [&](int y) {
+        limits::check();
+        const Spline spline = splineAt(y, step);
+        convolveColumns(coarse.row(spline.first), coarse.width(), spline.weights, result.row(y),
+                        result.width());
     });
     return result;
 }

@@ -178,13 +178,11 @@ Layer merge(const FilterStep& step) {
     Layer result(joinedBox(step).intersection(step.box), step.linear);
     for (const Layer* input : step.inputs) {
         const PixelBox both = result.box.intersection(input->box);
-        byRows(both, [&](const PixelBox& part) {
-            for (int y = part.min.y; y < part.max.y; ++y) {
-                const Float4* from = input->row(y) + (part.min.x - input->box.min.x);
-                Float4* to = result.row(y) + (part.min.x - result.box.min.x);
-                for (int x = 0; x < part.width(); ++x)
-                    to[x] = over(from[x], to[x]);
-            }
+        eachRow(both, [&](int y) {
+            const Float4* from = input->row(y) + (both.min.x - input->box.min.x);
+            Float4* to = result.row(y) + (both.min.x - result.box.min.x);
+            for (int x = 0; x < both.width(); ++x)
+                to[x] = over(from[x], to[x]);
         });
     }
     return result;

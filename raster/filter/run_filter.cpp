@@ -262,12 +262,10 @@ Canvas runFilter(const AssetView& asset, const Filter& filter, const FilterPlace
     const ResultRows rows(result, place);
     Canvas canvas(below);
     canvas.reserve(box);
-    byRows(box, [&](const PixelBox& part) {
-        for (int y = part.min.y; y < part.max.y; ++y) {
-            limits::check();
-            if (const PixelRun run = rows.seen(y, {part.min.x, part.max.x}); !run.empty())
-                rows.read(y, run, canvas.beginRun(y, run));
-        }
+    eachRow(box, [&](int y) {
+        limits::check();
+        if (const PixelRun run = rows.seen(y, {box.min.x, box.max.x}); !run.empty())
+            rows.read(y, run, canvas.beginRun(y, run));
     });
     return canvas;
 }

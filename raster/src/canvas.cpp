@@ -80,17 +80,15 @@ image::Raster Canvas::toRaster() const {
 
 void Canvas::toBytes(const ByteTarget& target) const {
     const ByteStore store(target, view_.width);
-    byRows(whole(), [&](const PixelBox& part) {
-        for (int y = part.min.y; y < part.max.y; ++y) {
-            const PixelRun drawn = run(y);
-            if (drawn.empty()) {
-                store(y, 0, view_.width, Float4{});
-                continue;
-            }
-            store(y, 0, drawn.first, Float4{});
-            store(y, drawn.first, {at(y, drawn.first), at(y, drawn.end)});
-            store(y, drawn.end, view_.width, Float4{});
+    eachRow(whole(), [&](int y) {
+        const PixelRun drawn = run(y);
+        if (drawn.empty()) {
+            store(y, 0, view_.width, Float4{});
+            return;
         }
+        store(y, 0, drawn.first, Float4{});
+        store(y, drawn.first, {at(y, drawn.first), at(y, drawn.end)});
+        store(y, drawn.end, view_.width, Float4{});
     });
 }
 

@@ -109,16 +109,14 @@ template <class Change>
 void combine(const Canvas& from, Canvas& to, Change change) {
     const PixelBox box = from.bounds();
     to.reserve(box);
-    byRows(box, [&](const PixelBox& part) {
-        for (int y = part.min.y; y < part.max.y; ++y) {
-            const PixelRun run = from.run(y);
-            if (run.empty())
-                continue;
-            const Float4* source = from.at(y, run.first);
-            Float4* target = to.extend(y, run);
-            for (int x = 0; x < run.end - run.first; ++x)
-                target[x] = change(target[x], source[x]);
-        }
+    eachRow(box, [&](int y) {
+        const PixelRun run = from.run(y);
+        if (run.empty())
+            return;
+        const Float4* source = from.at(y, run.first);
+        Float4* target = to.extend(y, run);
+        for (int x = 0; x < run.end - run.first; ++x)
+            target[x] = change(target[x], source[x]);
     });
 }
 

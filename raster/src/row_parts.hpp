@@ -30,4 +30,13 @@ void byRows(const PixelBox& box, const Draw& draw) {
                       });
 }
 
+/// Calls draw(y) for each of its rows, likewise.
+template <class Draw>
+void eachRow(const PixelBox& box, const Draw& draw) {
+    byRows(box, [&](const PixelBox& part) {
+        for (int y = part.min.y; y < part.max.y; ++y)
+            draw(y);
+    });
+}
+
 }  // namespace vtm::asset

@@ -175,12 +175,10 @@ std::vector<PixelBox> changedPixels(const View& view, const Difference& differen
     std::vector<PixelBox> boxes;
     for (const Area& area : difference.areas) {
         const glm::dvec2 corner(area.left, area.top), size(area.right - area.left, area.bottom - area.top);
-        PixelBox box = pixelsOf(view, {glm::dmat2(size.x, 0, 0, size.y), corner});
-        if (box.empty() && difference.pixelsAround == 0)
-            continue;
-        box.min -= difference.pixelsAround;
-        box.max += difference.pixelsAround;
-        addBox(box.intersection({{0, 0}, {view.width, view.height}}), boxes);
+        const PixelBox box = pixelsOf(view, {glm::dmat2(size.x, 0, 0, size.y), corner});
+        addBox(
+            box.grown(glm::ivec2(difference.pixelsAround)).intersection({{0, 0}, {view.width, view.height}}),
+            boxes);
     }
     return boxes;
 }
