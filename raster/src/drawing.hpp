@@ -171,8 +171,9 @@ private:
         const int y = top + row;
         ProgramPixels& pixels = scratch_.programs.pixels();
         if (pixels.empty())
-            return scratch_.colors.resolve(
-                std::size_t(row), [&](int first, int end, Float4 color) { store(y, first, end, color); });
+            return scratch_.colors.resolveFours(
+                std::size_t(row), [&](int first, int end, Float4 color) { store(y, first, end, color); },
+                [&](int first, std::span<const Float4> colors) { store(y, first, colors); });
         pixels.beginRow(row);
         const auto drawAlone = [&](int first, int end, std::uint32_t paint) {
             scratch_.programs.drawAlone(programs_, paint, y, first, end, store);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -317,6 +318,35 @@ public:
         changes[end] -= before;
     }
 
+    /// Calls run(first column, end, value) for long stretches of one value of the row and some(first column,
+    /// values) for up to four columns, in order, and clears it.
+    template <class Run, class Some>
+    void resolveFours(std::size_t row, Run&& run, Some&& some) {
+        Value value{};
+        Value* changes = &changes_[row * stride()];
+        std::uint64_t* touched = &touched_[row * words_];
+        int done = 0;
+        for (std::size_t w = 0; w < words_; ++w)
+            for (std::uint64_t bits = std::exchange(touched[w], 0); bits != 0;) {
+                const int inWord = std::countr_zero(bits) & ~3, first = int(w * 64) + inWord;
+                if (first >= width_)
+                    break;
+                bits &= ~(std::uint64_t(15) << inWord);
+                if (first > done)
+                    run(done, first, value);
+                std::array<Value, 4> values;
+                for (std::size_t i = 0; i < 4; ++i) {
+                    Value& change = changes[std::size_t(first) + i];
+                    values[i] = value += change;
+                    change = Value{};
+                }
+                done = first + 4;
+                some(first, std::span<const Value>(values).first(std::size_t(std::min(4, width_ - first))));
+            }
+        changes[width_] = changes[width_ + 1] = Value{};
+        if (done < width_)
+            run(done, width_, value);
+    }
     /// Calls run(first column, end, value) for the row's stretches of one value, in order, and clears it.
     template <class Run>
     void resolve(std::size_t row, Run&& run) {
@@ -342,7 +372,7 @@ public:
     }
 
 private:
-    std::size_t stride() const { return std::size_t(width_) + 2; }
+    std::size_t stride() const { return std::size_t(width_) + 4; }
 
     [[gnu::always_inline]] void touch(std::size_t row, unsigned first, unsigned last) {
         std::uint64_t* touched = &touched_[row * words_];
