@@ -39,17 +39,17 @@ public:
     /// Bands of bandRows rows, from `first` on: for each the chords that change a pixel of it. On the way
     /// along a row, from paint 0 on the left, each chord that is met has on its left the paint that one is
     /// in.
-    void draw(int first, std::span<std::vector<Chord>> bands, const ChordPaints& paints,
+    void draw(int first, std::span<const std::vector<Chord>> bands, const ChordPaints& paints,
               const ByteTarget& target);
     /// The same, as Scanner::scan gives it.
-    void scan(int first, std::span<std::vector<Chord>> bands, const ChordPaints& paints,
+    void scan(int first, std::span<const std::vector<Chord>> bands, const ChordPaints& paints,
               const std::function<void(int y, const ColorRun& run)>& take);
     /// The same, as Scanner::add gives it.
-    void add(int first, std::span<std::vector<Chord>> bands, const ChordPaints& paints,
+    void add(int first, std::span<const std::vector<Chord>> bands, const ChordPaints& paints,
              const PixelsToAddTo& pixels);
     /// Lays it over the pixels.
-    void layOver(int first, std::span<std::vector<Chord>> bands, const ChordPaints& paints, float opacity,
-                 const PixelsToAddTo& pixels);
+    void layOver(int first, std::span<const std::vector<Chord>> bands, const ChordPaints& paints,
+                 float opacity, const PixelsToAddTo& pixels);
 
 private:
     struct Impl;

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "raster/coverage.hpp"
+#include "raster/src/boundary_chords.hpp"
 #include "raster/src/row_sums.hpp"
 
 namespace vtm::asset {

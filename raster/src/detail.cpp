@@ -8,6 +8,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "raster/src/boundary_chords.hpp"
 #include "raster/src/row_sums.hpp"
 
 namespace vtm::asset {

@@ -14,7 +14,7 @@
 
 #include "raster/detail_map.hpp"
 #include "raster/planar_map.hpp"
-#include "raster/src/row_sums.hpp"
+#include "raster/src/boundary_chords.hpp"
 
 namespace vtm::asset {
 

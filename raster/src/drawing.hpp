@@ -4,7 +4,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -17,6 +19,7 @@
 #include <glm/matrix.hpp>
 
 #include <vtm/limits/limits.hpp>
+#include "raster/src/boundary_chords.hpp"
 #include "raster/src/placed_chords.hpp"
 #include "raster/src/row_sums.hpp"
 #include "raster/src/scan_programs.hpp"
@@ -82,14 +85,20 @@ public:
     template <class Store>
     void draw(Store& store) {
         for (int band = 0; band * bandRows < view_.height; ++band)
-            drawBand(band, store);
+            draw(band, std::array{scratch_.bands.of(band)}, store);
     }
-    /// One band, of chords that were made for it.
+    /// One band, of chords that were made for it, some in each part.
     template <class Store>
-    void draw(int band, std::vector<Chord>& chords, Store& store) {
-        scratch_.bands.exchange(band, chords);
-        drawBand(band, store);
-        scratch_.bands.exchange(band, chords);
+    void draw(int band, std::span<const std::span<const Chord>> parts, Store& store) {
+        limits::check();
+        const int top = band * bandRows, rows = std::min(bandRows, view_.height - top);
+        BandPrograms& programs = scratch_.programs;
+        programs.clear();
+        for (const std::span<const Chord> chords : parts)
+            addToSums(chords, top, rows);
+        programs.draw(programs_, top, rows, scratch_.colors);
+        for (int row = 0; row < rows; ++row)
+            drawRow(top, row, store);
     }
 
 private:
@@ -127,8 +136,7 @@ private:
         const auto there = placed.chords | std::views::transform([&](const Chord& c) {
                                return Chord{c.a + place, c.b + place, paints(c.left), paints(c.right)};
                            });
-        scratch_.bands.addAll(there, place.y + placed.min.y, place.y + placed.max.y, float(view_.width),
-                              float(view_.height));
+        scratch_.bands.addAll(there, place.y + placed.min.y, place.y + placed.max.y);
     }
 
     /// What the view shows of a placed map. What lies beside it changes no pixel.
@@ -142,15 +150,11 @@ private:
         return low.x >= 0 && low.y >= 0 && high.x <= size.x && high.y <= size.y ? Seen::All : Seen::Part;
     }
 
-    template <class Store>
-    void drawBand(int band, Store& store) {
-        limits::check();
-        const int top = band * bandRows, rows = std::min(bandRows, view_.height - top);
+    void addToSums(std::span<const Chord> chords, int top, int rows) {
         BandPrograms& programs = scratch_.programs;
-        programs.clear();
         const std::uint8_t* isProgram = of_.isProgram.data();
         const Float4* solid = of_.solid.data();
-        for (const Chord& c : scratch_.bands.of(band)) {
+        for (const Chord& c : chords) {
             if (isProgram[c.left] + isProgram[c.right] != 0) {
                 if (isProgram[c.left])
                     programs.addSide(c, c.left, 1);
@@ -161,9 +165,6 @@ private:
             }
             scratch_.colors.add(c, float(top), rows, solid[c.left] - solid[c.right]);
         }
-        programs.draw(programs_, top, rows, scratch_.colors);
-        for (int row = 0; row < rows; ++row)
-            drawRow(top, row, store);
     }
 
     template <class Store>

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "raster/src/boundary_chords.hpp"
 #include "raster/src/float4.hpp"
 #include "raster/src/program_pixels.hpp"
 #include "raster/src/row_sums.hpp"

@@ -12,6 +12,7 @@
 #include <emmintrin.h>
 #endif
 
+#include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
 namespace vtm::asset {
@@ -55,6 +56,16 @@ inline Float4 unit(Float4 v) {
 inline Float4 premultiplied(Float4 c) { return c * Float4{c[3], c[3], c[3], 1}; }
 inline Float4 over(Float4 source, Float4 backdrop) {
     return source + (1 - Float4{source[3], source[3], source[3], source[3]}) * backdrop;
+}
+
+// ---- Two doubles ----------------------------------------------------------------------------------
+
+using Double2 = double __attribute__((vector_size(16)));
+
+inline Double2 double2(glm::dvec2 v) { return Double2{v.x, v.y}; }
+inline glm::vec2 toFloats(Double2 v) {
+    const auto floats = __builtin_convertvector(v, float __attribute__((vector_size(8))));
+    return {floats[0], floats[1]};
 }
 
 }  // namespace vtm::asset

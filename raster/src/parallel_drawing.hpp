@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -91,22 +92,13 @@ private:
     void drawBands(int first, int end, const Store& store) {
         std::unique_ptr<RowScratch> scratch = pool_.take();
         Drawing drawing(of_, view_, noMaterials_, *scratch, finerLevels_);
-        for (int band = first; band < end; ++band)
-            drawing.draw(band, joined(band), store);
-        pool_.giveBack(std::move(scratch));
-    }
-
-    /// All chords of a band, in the first scratch that has some.
-    std::vector<Chord>& joined(int band) const {
-        std::vector<Chord>* all = nullptr;
-        for (const std::unique_ptr<RowScratch>& made : made_) {
-            std::vector<Chord>& some = made->bands.of(band);
-            if (!all || all->empty())
-                all = &some;
-            else
-                all->insert(all->end(), some.begin(), some.end());
+        std::vector<std::span<const Chord>> parts(made_.size());
+        for (int band = first; band < end; ++band) {
+            for (std::size_t i = 0; i < parts.size(); ++i)
+                parts[i] = made_[i]->bands.of(band);
+            drawing.draw(band, parts, store);
         }
-        return *all;
+        pool_.giveBack(std::move(scratch));
     }
 
     const Scanned& of_;

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -13,7 +15,7 @@
 #include <vtm/limits/limits.hpp>
 #include "asset/instances.hpp"
 #include "raster/chord.hpp"
-#include "raster/src/row_sums.hpp"
+#include "raster/src/boundary_chords.hpp"
 #include "raster/src/scanned_map.hpp"
 
 namespace vtm::asset {
@@ -29,19 +31,25 @@ struct PlacedChords {
         chords.clear();
         min = max = glm::vec2(0);
         const Affine2 toLattice{toPixels * (1 / map.place().extent), glm::dvec2(0)};
-        Chords made(toLattice, {0, 0}, [&](const Chord& chord) {
-            // A level one changes no row.
-            if (chord.a.y == chord.b.y)
-                return;
-            chords.push_back(chord);
-            min = glm::min(min, glm::min(chord.a, chord.b));
-            max = glm::max(max, glm::max(chord.a, chord.b));
-        });
+        Chords made(toLattice, {0, 0},
+                    [&](std::span<const glm::vec2> points, std::uint32_t left, std::uint32_t right) {
+                        for (std::size_t i = 1; i < points.size(); ++i)
+                            add({points[i - 1], points[i], left, right});
+                    });
         for (std::size_t i = 0; i < map.boxCount(); ++i) {
             limits::check();
             for (const Boundary& boundary : map.box(i).at(made.pixel()))
                 made.addAnywhere(boundary);
         }
+    }
+
+private:
+    void add(const Chord& chord) {
+        if (chord.a.y == chord.b.y)  // it changes no row
+            return;
+        chords.push_back(chord);
+        min = glm::min(min, glm::min(chord.a, chord.b));
+        max = glm::max(max, glm::max(chord.a, chord.b));
     }
 };
 

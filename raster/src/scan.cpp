@@ -1,5 +1,6 @@
 #include <vtm/raster/scan.hpp>
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -288,12 +289,12 @@ struct ChordScanner::Impl {
     RowScratch scratch;
 
     template <class Store>
-    void draw(int first, std::span<std::vector<Chord>> bands, const ChordPaints& paints, Store store) {
+    void draw(int first, std::span<const std::vector<Chord>> bands, const ChordPaints& paints, Store store) {
         const Scanned scanned(paints);
         const MaterialFunction noMaterials;
         Drawing drawing(scanned, view, noMaterials, scratch, finerLevels(paints.asset, view));
-        for (std::vector<Chord>& chords : bands)
-            drawing.draw(first++, chords, store);
+        for (const std::vector<Chord>& chords : bands)
+            drawing.draw(first++, std::array{std::span(chords)}, store);
     }
 };
 
@@ -302,24 +303,24 @@ ChordScanner::ChordScanner(const View& view) : impl_(new Impl{.view = view, .scr
 }
 ChordScanner::~ChordScanner() = default;
 
-void ChordScanner::draw(int first, std::span<std::vector<Chord>> bands, const ChordPaints& paints,
+void ChordScanner::draw(int first, std::span<const std::vector<Chord>> bands, const ChordPaints& paints,
                         const ByteTarget& target) {
     impl_->draw(first, bands, paints, ByteStore(target, impl_->view.width));
 }
 
-void ChordScanner::scan(int first, std::span<std::vector<Chord>> bands, const ChordPaints& paints,
+void ChordScanner::scan(int first, std::span<const std::vector<Chord>> bands, const ChordPaints& paints,
                         const std::function<void(int, const ColorRun&)>& take) {
     impl_->draw(first, bands, paints, RunStore([&](int row, int from, int end, const vec4& color) {
                     take(row, {from, end, color});
                 }));
 }
 
-void ChordScanner::add(int first, std::span<std::vector<Chord>> bands, const ChordPaints& paints,
+void ChordScanner::add(int first, std::span<const std::vector<Chord>> bands, const ChordPaints& paints,
                        const PixelsToAddTo& pixels) {
     impl_->draw(first, bands, paints, AddStore(pixels));
 }
 
-void ChordScanner::layOver(int first, std::span<std::vector<Chord>> bands, const ChordPaints& paints,
+void ChordScanner::layOver(int first, std::span<const std::vector<Chord>> bands, const ChordPaints& paints,
                            float opacity, const PixelsToAddTo& pixels) {
     impl_->draw(first, bands, paints, OverStore(pixels, opacity));
 }

@@ -8,11 +8,13 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <span>
 #include <vector>
 
+#include <glm/common.hpp>
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec2.hpp>
@@ -211,16 +213,25 @@ private:
     /// So many neighbours, at most, are looked at together; of uncut ones that many more at first.
     static constexpr int maxNeighbours = 8, maxUncut = 64;
 
-    /// Calls take(row, first column, end, what was summed) for what the program has of the band.
+    /// Calls take(row, first column, end, what was summed) for what the program has of the band. Only the
+    /// pixels in the box around its chords are looked at.
     template <class Grid, class Take>
     void forEachRun(const ProgramView& of, std::uint32_t paint, Accumulator<Grid>& coverage, Take&& take) {
-        for (const ProgramSide& side : sides_[paint])
-            coverage.add(*side.chord, float(top_), rows_, side.change);
-        for (int row = 0; row < rows_; ++row)
-            coverage.resolve(std::size_t(row), [&](int from, int to, auto sum) {
+        glm::vec2 low(std::numeric_limits<float>::max()), high(-low);
+        for (const ProgramSide& side : sides_[paint]) {
+            const Chord& chord = *side.chord;
+            coverage.add(chord, float(top_), rows_, side.change);
+            low = glm::min(low, glm::min(chord.a, chord.b));
+            high = glm::max(high, glm::max(chord.a, chord.b));
+        }
+        const auto columnAt = [&](float x) { return int(std::clamp(x, 0.0f, float(of.view.width + 1))); };
+        const auto rowAt = [&](float y) { return int(std::clamp(y - float(top_), 0.0f, float(rows_))); };
+        const int from = columnAt(low.x), to = columnAt(high.x + 1);
+        const int firstRow = rowAt(low.y), endRow = std::min(rowAt(high.y) + 1, rows_);
+        for (int row = firstRow; row < endRow; ++row)
+            coverage.resolve(std::size_t(row), from, to, [&](int first, int end, auto sum) {
                 if (!isNothing(sum))
-                    of.forEachWanted(top_ + row, from, to,
-                                     [&](int first, int end) { take(row, first, end, sum); });
+                    of.forEachWanted(top_ + row, first, end, [&](int a, int b) { take(row, a, b, sum); });
             });
     }
 
@@ -231,7 +242,7 @@ private:
         });
         finishWholes(of, paint);
     }
-    void addWholes(const ProgramView& of, std::uint32_t paint, const Run& run) {
+    [[gnu::always_inline]] void addWholes(const ProgramView& of, std::uint32_t paint, const Run& run) {
         const bool isLong = run.end - run.first >= minLong;
         hasRows_ |= isLong;
         if (of.areDisjoint && isLong && isNothing(run.share - 1))

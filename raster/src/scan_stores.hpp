@@ -70,7 +70,7 @@ public:
     ByteStore(const ByteTarget& target, int width) : target_(target), width_(width) {}
 
     /// Four pixels at a time, of which the next run overwrites those that are too many.
-    void operator()(int row, int first, int end, Float4 color) const {
+    [[gnu::always_inline]] void operator()(int row, int first, int end, Float4 color) const {
         std::uint8_t* at = place(row, first);
         const std::uint32_t word = packed(color), four[]{word, word, word, word};
         const int last = std::min(end, width_ - 3);
@@ -80,7 +80,7 @@ public:
             std::memcpy(at, &word, 4);
     }
 
-    void operator()(int row, int first, std::span<const Float4> colors) const {
+    [[gnu::always_inline]] void operator()(int row, int first, std::span<const Float4> colors) const {
         std::uint8_t* at = place(row, first);
         std::size_t i = 0;
         for (; i + 4 <= colors.size(); i += 4, at += 16)

@@ -17,8 +17,8 @@
 #include <vtm/limits/limits.hpp>
 #include "raster/map_part.hpp"
 #include "raster/planar_map.hpp"
+#include "raster/src/boundary_chords.hpp"
 #include "raster/src/detail.hpp"
-#include "raster/src/row_sums.hpp"
 
 namespace vtm::asset {
 
