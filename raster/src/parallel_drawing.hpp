@@ -46,13 +46,19 @@ public:
     ParallelDrawing(const Scanned& of, const View& view, ScratchPool& pool)
         : of_(of), view_(view), pool_(pool), finerLevels_(finerLevelsOf(of, view)) {}
 
-    /// Whether it is worth it.
+    /// Whether it is worth it: waking threads that sleep costs as much as filling a million pixels, some
+    /// tenths of a millisecond.
     static bool pays(const Scanned& of, const View& view) {
-        // In a small picture levels of detail leave little of many boundaries.
-        constexpr std::size_t manyBoundaries = 1u << 12, somePixels = 1u << 14, manyPixels = 1u << 17;
+        constexpr std::size_t somePixels = 1u << 14, muchWork = 1u << 21;
+        // A boundary and a pixel of paint programs take as long as so many pixels of solid colour.
+        constexpr std::size_t boundary = 300, programPixel = 8;
         const std::size_t pixels = std::size_t(view.width) * std::size_t(view.height);
-        return tbb::this_task_arena::max_concurrency() > 1 &&
-               (pixels >= manyPixels || (pixels >= somePixels && of.boundaryCount() >= manyBoundaries));
+        if (tbb::this_task_arena::max_concurrency() == 1 || pixels < somePixels)
+            return false;
+        // In a small picture levels of detail leave little of many boundaries.
+        return pixels * (of.hasPrograms() ? programPixel : 1) +
+                   boundary * std::min(of.boundaryCount(), pixels) >=
+               muchWork;
     }
 
     /// `store`: called by several threads at once.

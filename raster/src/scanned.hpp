@@ -2,6 +2,7 @@
 /// What a scanner draws: maps with their boundaries, those that are placed in them, and paints.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -136,9 +137,10 @@ struct Scanned {
     std::size_t boundaryCount() const {
         std::size_t count = 0;
         for (const Drawn& map : drawn)
-            count += map.own.boundaryCount();
+            count += map.own.boundaryCount() + map.placed.boundaries;
         return count;
     }
+    bool hasPrograms() const { return std::ranges::find(isProgram, 1) != isProgram.end(); }
     glm::vec4 added(glm::vec4 color) const { return sums == Sums::Light ? light(color) : color; }
 };
 
