@@ -90,7 +90,8 @@ bool nextGlyph(Vtm vtm, CopyFootprint around, PageLayer layer, uvec4 page, inout
         uvec4 record = texelAt(vtm, place);
         vec4 linear = uintBitsToFloat(texelAt(vtm, place + 1u));
         vec2 inCell = namesSymbols(layer) ? uintBitsToFloat(texelAt(vtm, place + 2u)).xy : vec2(0.0);
-        found = findMap(around, mat2(linear.xy, linear.zw), walk.centre + inCell, part) && walk.symbol != 0u;
+        part = partOver(around, mat2(linear.xy, linear.zw), walk.centre + inCell);
+        found = meetsMap(part) && walk.symbol != 0u;
         root = record.x;
         pageInk = inkOf(vtm, layer, record, walk.index);
         walk.symbol = namesSymbols(layer) ? record.y : 0u;
