@@ -68,10 +68,9 @@ vec4 numberColor(ASSET_IN uint number) {
     return onPage ? pageColor(number) : solidColor(ASSET paintOf(ASSET number));
 }
 
-vec4 leafIntegral(ASSET_IN Square square) {
+vec4 leafIntegral(Vtm vtm, Square square) {
     uvec4 leaf = square.leaf;
-    vec4 corners = cornerAreas(square.frame), placed = numberColor(ASSET 0u);
-    vec4 ground = isPlaced() ? placed : groundColor;
+    vec4 corners = cornerAreas(square.frame), ground = groundOf(vtm);
     vec4 sum = dot(corners, vec4(1.0)) * (numberColor(ASSET low(leaf.z)) - ground);
     Pieces pieces = piecesOf(leaf, corners);
     uvec4 piece = texelAt(ASSET SECTIONS.y + pieces.next);

@@ -2,7 +2,7 @@
 // in asset/instances.hpp. And what lies under a map: its ground, so that only what differs is added up.
 // Requires: sample_asset.glsl, fetch.glsl; INNER_MAPS, TEXT_PAGES; constant kindSolid.
 // Exports: isPlaced, paintOf; innerDepth, innerPalettes, innerGrounds, which sample_maps.glsl sets; onPage, pageColor,
-// pageGround, pageInk, which sample_page.glsl sets; layGround, groundColor, groundEntry.
+// pageGround, pageInk, which sample_page.glsl sets; layGround, groundColor, groundEntry, groundOf.
 
 #if TEXT_PAGES
 bool onPage = false;       // a glyph of a page is added up
@@ -39,8 +39,8 @@ uint paintOf(ASSET_IN uint number) { return number; }
 
 #endif
 
-// Of the picture's own map. The paint that most of its squares show lies under each footprint inside the picture, so that these
-// squares add nothing; under others lies paint 0, which is transparent.
+// Of the picture's own map, or of a page. The paint that most of the map's squares show lies under each footprint inside the
+// picture, so that these squares add nothing; under others lies paint 0, which is transparent.
 uint groundPaint = 0u;
 vec4 groundColor = vec4(0.0);
 
@@ -55,4 +55,14 @@ void layGround(Vtm vtm, bool isInside, inout vec4 sum) {
 uint groundEntry() {
     uint number = isPlaced() ? 0u : groundPaint;
     return number << 2 | kindSolid;
+}
+
+// What lies under the map that is being added up.
+vec4 groundOf(Vtm vtm) {
+#if INNER_MAPS
+    vec4 inner = solidColor(vtm, paintOf(vtm, 0u)), outer = groundColor;
+    return innerDepth > 0 ? inner : outer;
+#else
+    return groundColor;
+#endif
 }

@@ -129,7 +129,7 @@ void addPicture(Vtm vtm, CopyFootprint part, mat3x2 pixel, inout vec4 sum) {
     uvec4 page = uvec4(1u, 0u, 0u, 0u);
     if (onPage) {
         page = texelAt(vtm, vtm.page);
-        pageGround = uintBitsToFloat(texelAt(vtm, vtm.page + 1u));
+        pageGround = groundColor = uintBitsToFloat(texelAt(vtm, vtm.page + 1u));
         sum += groundSum(vtm, part);
     }
     for (uint i = 0u; i < page.x && spend(1.0); ++i) {
