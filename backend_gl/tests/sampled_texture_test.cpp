@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include <vtm/asset/container.hpp>
 #include <vtm/asset/placements.hpp>
 #include <vtm/raster/evaluate.hpp>
@@ -116,9 +118,33 @@ TEST_F(Gl, RepeatedAndMirroredTexturesHaveNoSeam) {
         }
 }
 
+asset::Entry solidOf(std::uint32_t paint) { return asset::Entry::make(asset::Entry::Kind::Solid, paint); }
+
+/// Most squares are red, which lies under footprints inside the picture and under no others.
+TEST_F(Gl, TheGroundEndsWhereThePictureDoes) {
+    Asset asset = twoLevels();
+    asset.height = 48;  // the last row of squares lies below the picture
+    for (const int i : {0, 1, 3, 4, 8, 10})
+        asset.nodes[0].children[i] = solidOf(1);
+    for (int i = 12; i < 16; ++i)
+        asset.nodes[0].children[i] = solidOf(0);
+    ASSERT_NO_THROW(asset::validate(asset));
+    for (const double zoom : {0.7, 3.0, 20.0, 150.0})
+        for (const glm::dvec2 at : {glm::dvec2(0.3, 0.2), glm::dvec2(63.5, 47.5), glm::dvec2(30, 24)}) {
+            const View view = turnedView(50, 40, at, zoom, 0.3, 0.2);
+            EXPECT_LE(worst(drawn(asset, view), asset::evaluate(asset, view)), tolerance) << zoom;
+            for (const bool mirrored : {false, true}) {
+                const Wrap wrap = mirrored ? Wrap::Mirror : Wrap::Repeat;
+                EXPECT_LE(worst(drawn(asset, view, {wrap, wrap}), sumOfCopies(asset, view, mirrored, -2, 3)),
+                          tolerance)
+                    << mirrored << ' ' << zoom;
+            }
+        }
+}
+
 TEST_F(Gl, OneColourIsItselfAtAnySizeUnderAnyWrap) {
     Asset asset = emptyAsset();
-    asset.maps[0].root = asset::Entry::make(asset::Entry::Kind::Solid, 2);
+    asset.maps[0].root = solidOf(2);
     for (const Wrap wrap : {Wrap::Repeat, Wrap::Mirror, Wrap::Clamp})
         for (double zoom = 0.001; zoom < 5000; zoom *= 3.7) {
             const Raster raster = drawn(asset, turnedView(24, 24, {1, 63}, zoom, 0.7, 0.3), {wrap, wrap});
@@ -193,6 +219,34 @@ vec4 shade(vec2 pixel) { return vtm_sample_grad(sign, 3.0 * pixel / 48.0 - 1.0, 
                 ASSERT_NEAR(raster.pixel(i % 48, i / 48)[c], color[c], tolerance) << int(wrap) << ' ' << i;
         }
     }
+}
+
+/// A red picture with a green prefilter shows the prefilter's share: of w x l texels as of a square of (w w
+/// l)^(1/3).
+TEST_F(Gl, LongFootprintsComeFromThePrefilterAsWiderOnesDo) {
+    constexpr float side = 64;
+    Asset asset = emptyAsset();
+    asset.maps[0].root = solidOf(1);
+    asset.prefilter = asset::buildPrefilter(asset, asset::PyramidSize{unsigned(side), unsigned(side)});
+    std::ranges::fill(asset.prefilter.texels, asset::Rgba8{0, 255, 0, 255});
+    SampledTexture texture(asset);
+    for (const float width : {1.25f, 2.0f, 2.9f})
+        for (const float wide : {2.95f, 3.2f, 3.5f, 3.8f}) {
+            const float length = wide * wide * wide / (width * width);
+            if (length < width || length > 16 * width)
+                continue;
+            test::ShaderCanvas canvas(sampleInclude({asset}), fmt::format(R"(
+uniform Vtm sign;
+const mat2 footprint = mat2(0.8, 0.6, -0.6, 0.8);
+vec4 shade(vec2 pixel) {{
+    return vtm_sample_grad(sign, pixel / 8.0, footprint[0] * {:.9f}, footprint[1] * {:.9f});
+}})",
+                                                                          width / side, length / side));
+            texture.bind(canvas.program(), "sign", 0, {Wrap::Repeat, Wrap::Repeat});
+            const float share = std::log(wide / asset::fadeFrom) / std::log(asset::fadeTo / asset::fadeFrom);
+            EXPECT_NEAR(canvas.draw(8, 8).pixel(3, 4)[1], std::clamp(share, 0.0f, 1.0f), 1.0 / 128)
+                << width << " x " << length;
+        }
 }
 
 TEST_F(Gl, DerivativesCanBeGiven) {

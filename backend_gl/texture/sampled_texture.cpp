@@ -1,6 +1,7 @@
 #include <vtm/gl/sampled_texture.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <optional>
 #include <span>
@@ -8,6 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include <glm/common.hpp>
+#include <glm/vec2.hpp>
+
+#include "asset/walk.hpp"
 #include "backend_gl/core/constants.hpp"
 #include "backend_gl/core/features.hpp"
 #include "backend_gl/core/requirements.hpp"
@@ -24,6 +29,7 @@ namespace {
 
 using asset::AssetView;
 using asset::Texel;
+using glm::dvec2;
 
 const asset::Map& onlyMap(const AssetView& asset) {
     if (asset.mode != asset::Mode::Exact)
@@ -35,6 +41,22 @@ const asset::Map& onlyMap(const AssetView& asset) {
     return asset.maps[asset.commands[0].map];
 }
 
+/// The paint that has most of the area of the picture's solid squares, programs left out; 0, which is
+/// transparent, if there are none.
+std::uint32_t groundOf(const AssetView& asset, const asset::Map& map) {
+    std::vector<double> areas(asset.paints.size());
+    asset::walk(asset, map.root, [&](asset::Cell cell, asset::Entry entry) {
+        if (entry.kind() != asset::Entry::Kind::Solid || asset::isProgram(asset.paints[entry.payload()]))
+            return;
+        const double side = std::ldexp(map.side, -2 * int(cell.level));
+        const dvec2 corner = dvec2(map.x, map.y) + dvec2(cell.x, cell.y) * side;
+        const dvec2 inside =
+            glm::min(corner + side, dvec2(asset.width, asset.height)) - glm::max(corner, dvec2(0));
+        areas[entry.payload()] += std::max(inside.x, 0.0) * std::max(inside.y, 0.0);
+    });
+    return std::uint32_t(std::ranges::max_element(areas) - areas.begin());
+}
+
 /// An asset as a `uniform Vtm`, before it is uploaded.
 struct Sampled {
     explicit Sampled(const AssetView& asset) : images(imageTexels(asset)) {
@@ -42,6 +64,7 @@ struct Sampled {
         uniform.width = asset.width;
         uniform.height = asset.height;
         uniform.map = onlyMap(asset);
+        uniform.ground = groundOf(asset, uniform.map);
         uniform.flags = samplingFlags(features, {innerMapsOf(asset), false});
         records = recordTexels(asset, images.list, uniform.parts);
         hasImages = features.has(Features::Image);
@@ -80,6 +103,7 @@ struct SampledTexture::Impl {
         uniform.width = asset.width;
         uniform.height = asset.height;
         uniform.map = onlyMap(asset);
+        uniform.ground = groundOf(asset, uniform.map);
         finestPixel = asset.finestPixel;
         return records.update(std::move(next));
     }

@@ -110,6 +110,7 @@ std::vector<UniformValue> VtmUniform::values(Wrapping wrapping) const {
             {"rampSums", Words{parts.rampSums}},
             {"nodes", Words{parts.nodes}},
             {"root", Words{map.root.bits}},
+            {"ground", Words{ground}},
             {"features", Words{flags}},
             {"size", Floats{float(width), float(height)}},
             {"square", Floats{float(map.x), float(map.y), float(map.side)}},

@@ -30,8 +30,9 @@ std::vector<asset::Texel> recordTexels(const asset::AssetView& asset, std::span<
 struct VtmUniform {
     Parts parts;
     double width = 0, height = 0;
-    asset::Map map;           ///< that is sampled
-    std::uint32_t flags = 0;  ///< samplingFlags
+    asset::Map map;            ///< that is sampled
+    std::uint32_t ground = 0;  ///< solid paint that most of its squares show
+    std::uint32_t flags = 0;   ///< samplingFlags
     asset::PyramidSize prefilterSize;
     GLuint page = 0;  ///< first texel of a page of text; 0: none
 

@@ -68,9 +68,9 @@ vec4 numberColor(ASSET_IN uint number) {
     return onPage ? pageColor(number) : solidColor(ASSET paintOf(ASSET number));
 }
 
-vec4 leafIntegral(ASSET_IN Square square) {
+vec4 leafIntegral(Vtm vtm, Square square) {
     uvec4 leaf = square.leaf;
-    vec4 corners = cornerAreas(square.frame), ground = isPlaced() ? numberColor(ASSET 0u) : vec4(0.0);
+    vec4 corners = cornerAreas(square.frame), ground = groundOf(vtm);
     vec4 sum = dot(corners, vec4(1.0)) * (numberColor(ASSET low(leaf.z)) - ground);
     Pieces pieces = piecesOf(leaf, corners);
     uvec4 piece = texelAt(ASSET SECTIONS.y + pieces.next);
@@ -104,7 +104,7 @@ struct LeafSum {
     Square square;
     Pieces pieces;
     float whole;        // area of the first corner's paint that is not yet added
-    float ground;       // the same of what is under a map that is placed
+    float ground;       // the same of what is under a placed map
     uvec2 waiting;      // paints of the piece that comes next, if it waits for a place
     Share one, other;
 };
@@ -115,13 +115,15 @@ LeafSum noLeaf() {
     return LeafSum(square, Pieces(0u, 0u, vec4(0.0)), 0.0, 0.0, uvec2(noPaint), none, none);
 }
 
-LeafSum leafOf(Square square) {
+// `color` loses what lies under the leaf: the ground of the picture's own map is solid.
+LeafSum leafOf(Square square, inout vec4 color) {
     LeafSum sum = noLeaf();
     vec4 corners = cornerAreas(square.frame);
     sum.square = square;
     sum.pieces = piecesOf(square.leaf, corners);
     sum.whole = square.turn * dot(corners, vec4(1.0));
     sum.ground = isPlaced() ? -sum.whole : 0.0;
+    color -= isPlaced() ? vec4(0.0) : sum.whole * groundColor;
     return sum;
 }
 

@@ -37,6 +37,7 @@ void addFootprint(Vtm vtm, Footprint footprint, inout vec4 sum) {
         vec2 turned = mix(vec2(1.0), vec2(-1.0), mirrored);
         vec2 lower = max(st - halfBox, 0.0), upper = min(st + halfBox, 1.0);
         if (all(lessThanEqual(lower, upper))) {
+            layGround(vtm, all(equal(lower, st - halfBox)) && all(equal(upper, st + halfBox)), sum);
             // A box that only touches the picture's end has no cell beyond it.
             lower = clamp(lower * scale + offset, 0.0, lastPlace);
             upper = clamp(upper * scale + offset, 0.0, 1.0);

@@ -13,6 +13,7 @@ struct Vtm {
     uint rampSums;         // first texel of the integrals of ramps
     uint nodes;            // first texel of the nodes
     uint root;             // entry of the tree
+    uint ground;           // solid paint that most of the picture's squares show
     uint features;         // of the paint programs, one bit each
     vec2 size;             // of the picture, its units
     vec3 square;           // the tree's: least x and y, side

@@ -54,12 +54,13 @@ void enterCell(inout Grid grid, uvec4 texel) {
     grid.end = grid.next + (word >> 24);
 }
 
-// Whether the footprint's box meets an entry's. Of the cells that both meet, only that one tells which holds their common min
-// corner, so an instance is met once.
+// Whether the footprint meets an entry's box. Of the cells that its own box and that one both meet, only that one tells which
+// holds their common min corner, so an instance is met once.
 bool meetsEntry(CopyFootprint part, Grid grid, uvec4 entry) {
-    vec2 lower = max(part.lower, vec2(low(entry.y), low(entry.z)) / 65536.0);
-    vec2 upper = min(part.upper, vec2(high(entry.y) + 1u, high(entry.z) + 1u) / 65536.0);
-    return all(lessThanEqual(lower, upper)) && cellAt(grid, lower) == grid.cell;
+    vec2 lower = vec2(low(entry.y), low(entry.z)) / 65536.0;
+    vec2 upper = vec2(high(entry.y) + 1u, high(entry.z) + 1u) / 65536.0, corner = max(part.lower, lower);
+    return all(lessThanEqual(corner, min(part.upper, upper))) && meetsBox(part, 0.5 * (lower + upper), 0.5 * (upper - lower)) &&
+           cellAt(grid, corner) == grid.cell;
 }
 
 #endif
@@ -88,30 +89,26 @@ Search searchOf(Vtm vtm, CopyFootprint part, uint root, uint grid) {
     return Search(part, walkFrom(root), gridAt(vtm, part, grid), false);
 }
 
-// Into an instance, if the footprint meets it; its map's first grid comes next.
-bool enterInstance(Vtm vtm, uint number, inout Search search, out uint grid) {
+// Into an instance; its map's first grid, which is returned, comes next.
+uint enterInstance(Vtm vtm, uint number, inout Search search) {
     uvec4 instance = texelAt(vtm, placedOf.x + number);
     uint place = placedOf.y + 2u * (instance.x >> 24 | instance.y >> 24 << 8);
     uvec4 symbol = texelAt(vtm, place);
     ivec4 m = ivec4(instance.z << 16, instance.z, instance.w << 16, instance.w) >> 16;
     mat2 linear = mat2(vec2(m.xy), vec2(m.zw)) * (uintBitsToFloat(symbol.z) / slopeScale);
     vec2 centre = vec2(instance.xy & 0xFFFFFFu) / 16777216.0;
-    CopyFootprint part;
     uvec4 map = texelAt(vtm, place + 1u);
-    bool met = findMap(search.part, linear, centre, part);
-    if (met) {
-        for (int i = 0; i < INNER_MAPS; ++i)
-            if (i == innerDepth) {
-                innerGrounds[i] = high(symbol.x);
-                innerPalettes[i] = symbol.y;
-                outer[i] = Around(search.part, search.grid);
-            }
-        ++innerDepth;
-        search.part = part;
-        search.walk = walkFrom(map.x);
-    }
-    grid = innerDepth < INNER_MAPS ? map.y : 0u;
-    return met;
+    for (int i = 0; i < INNER_MAPS; ++i)
+        if (i == innerDepth) {
+            innerGrounds[i] = high(symbol.x);
+            innerPalettes[i] = symbol.y;
+            outer[i] = Around(search.part, search.grid);
+        }
+    ++innerDepth;
+    search.part = partOver(search.part, linear, centre);
+    search.walk = walkFrom(map.x);
+    uint grid = map.y;
+    return innerDepth < INNER_MAPS ? grid : 0u;
 }
 
 // To a map's next grid, or back to the map around.
@@ -156,7 +153,7 @@ bool nextSquare(Vtm vtm, inout Search search, mat3x2 pixel, out Square square) {
             bool inTree = !isDone(search.walk), inCell = !inTree && search.grid.next < search.grid.end;
             uint place;
             if (inTree)
-                found = advance(search.part, search.walk, cell, side, entry, place) && (!isPlaced() || entry != kindSolid);
+                found = advance(search.part, search.walk, cell, side, entry, place) && entry != groundEntry();
             else if (inCell)
                 place = search.grid.next++;
             else
@@ -173,9 +170,9 @@ bool nextSquare(Vtm vtm, inout Search search, mat3x2 pixel, out Square square) {
                 break;
         }
         uint grid;
-        bool opens = false;
+        bool opens = isNear;
         if (isNear)
-            opens = enterInstance(vtm, texel.x, search, grid);
+            grid = enterInstance(vtm, texel.x, search);
         else if (!found && ended)
             opens = leave(search, grid);
         if (opens)
@@ -187,7 +184,7 @@ bool nextSquare(Vtm vtm, inout Search search, mat3x2 pixel, out Square square) {
     // Of what is placed there is nothing where its paint is the ground's.
     while (!search.isOver && spend(1.0)) {
         uint place;
-        found = advance(search.part, search.walk, cell, side, entry, place) && (!isPlaced() || entry != kindSolid);
+        found = advance(search.part, search.walk, cell, side, entry, place) && entry != groundEntry();
         setEntry(search.walk, texelAt(vtm, place));
         search.isOver = isDone(search.walk);
         if (found || search.isOver)
@@ -213,7 +210,7 @@ void addMap(Vtm vtm, CopyFootprint part, mat3x2 pixel, uint root, uint grid, ino
     while (!isOver && spend(1.0)) {
         while (!isOver && spend(1.0)) {
             if (isFinished(leaf) && nextSquare(vtm, search, pixel, square))
-                leaf = leafOf(square);
+                leaf = leafOf(square, sum);
             addAreas(vtm, leaf);
             addColors(vtm, leaf, sum);
             isOver = isFinished(leaf) && search.isOver;

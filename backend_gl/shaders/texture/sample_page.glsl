@@ -90,7 +90,8 @@ bool nextGlyph(Vtm vtm, CopyFootprint around, PageLayer layer, uvec4 page, inout
         uvec4 record = texelAt(vtm, place);
         vec4 linear = uintBitsToFloat(texelAt(vtm, place + 1u));
         vec2 inCell = namesSymbols(layer) ? uintBitsToFloat(texelAt(vtm, place + 2u)).xy : vec2(0.0);
-        found = findMap(around, mat2(linear.xy, linear.zw), walk.centre + inCell, part) && walk.symbol != 0u;
+        part = partOver(around, mat2(linear.xy, linear.zw), walk.centre + inCell);
+        found = meetsMap(part) && walk.symbol != 0u;
         root = record.x;
         pageInk = inkOf(vtm, layer, record, walk.index);
         walk.symbol = namesSymbols(layer) ? record.y : 0u;
@@ -128,7 +129,7 @@ void addPicture(Vtm vtm, CopyFootprint part, mat3x2 pixel, inout vec4 sum) {
     uvec4 page = uvec4(1u, 0u, 0u, 0u);
     if (onPage) {
         page = texelAt(vtm, vtm.page);
-        pageGround = uintBitsToFloat(texelAt(vtm, vtm.page + 1u));
+        pageGround = groundColor = uintBitsToFloat(texelAt(vtm, vtm.page + 1u));
         sum += groundSum(vtm, part);
     }
     for (uint i = 0u; i < page.x && spend(1.0); ++i) {

@@ -67,9 +67,12 @@ Footprint footprintOf(Vtm vtm, vec2 st, vec2 dx, vec2 dy) {
     return Footprint(st, sides, turn, axes.x, axes.y, wide);
 }
 
-// How much of the colour the prefilter gives, rising with the footprint.
+// How much of the colour the prefilter gives, rising with the footprint: docs/prefilter.md. Less than half a 256th is none, and
+// what rounding leaves of a footprint of fadeFrom texels.
 float prefilterShare(Footprint footprint) {
-    float share = clamp(log2(footprint.shorter / fadeFrom) / log2(fadeTo / fadeFrom), 0.0, 1.0);
+    float width = (2.0 * log2(footprint.shorter) + log2(footprint.longer)) / 3.0;
+    float share = clamp((width - log2(fadeFrom)) / log2(fadeTo / fadeFrom), 0.0, 1.0);
+    share = round(share * 256.0) / 256.0;
     return footprint.wide ? 1.0 : share;
 }
 

@@ -1,7 +1,7 @@
 // Squares of a tree that a footprint meets, found without recursion and without a stack. docs/texture.md.
 // Requires: sample_asset.glsl, leaf_integral.glsl, placed_paints.glsl; constants kind*, maxLevel, leafExtent.
 // Exports: CopyFootprint, picturePoint, lastPlace, Walk, walkFrom, descend, isDone, advance, setEntry, squareOf, wordAt,
-// findMap.
+// partOver, meetsMap, meetsBox.
 
 // ---- One square of the tree -------------------------------------------------------------------------
 
@@ -46,11 +46,15 @@ ivec2 lastCell(CopyFootprint part, int level) {
     return max(ivec2(ceil(part.upper * perSideAt(level))) - 1, firstCell(part, level));
 }
 
-// Whether a square meets the footprint, by its box in the pixel's coordinates.
-bool meets(CopyFootprint part, ivec2 cell, float side) {
-    vec2 fromCentre = part.toBox * ((vec2(cell) + 0.5) * side - part.centre);
-    vec2 reach = (abs(part.toBox[0]) + abs(part.toBox[1])) * (0.5 * side) + 0.5;
+// Whether a box meets the footprint, by its own box in the pixel's coordinates.
+bool meetsBox(CopyFootprint part, vec2 middle, vec2 halfSize) {
+    vec2 fromCentre = part.toBox * (middle - part.centre);
+    vec2 reach = abs(part.toBox[0]) * halfSize.x + abs(part.toBox[1]) * halfSize.y + 0.5;
     return all(lessThan(abs(fromCentre), reach));
+}
+
+bool meets(CopyFootprint part, ivec2 cell, float side) {
+    return meetsBox(part, (vec2(cell) + 0.5) * side, vec2(0.5 * side));
 }
 
 // Squares in the order of the tree, without recursion: a place in the tree is a cell, its level and the node that holds it.
@@ -135,11 +139,10 @@ const float lastPlace = 1.0 - 1.0 / 16777216.0;
 
 // ---- A map that is placed -------------------------------------------------------------------------------
 
-// The footprint over a map whose square's middle stands at `centre`; `linear` leads from the map's square. False if
-// they do not meet.
-bool findMap(CopyFootprint around, mat2 linear, vec2 centre, out CopyFootprint part) {
+// The footprint over a map whose square's middle stands at `centre`; `linear` leads from the map's square.
+CopyFootprint partOver(CopyFootprint around, mat2 linear, vec2 centre) {
     mat2 toInner = inverse(linear);
-    part = around;
+    CopyFootprint part = around;
     part.toBox = around.toBox * linear;
     part.centre = toInner * (around.centre - centre) + 0.5;
     mat2 sides = inverse(part.toBox);
@@ -147,8 +150,11 @@ bool findMap(CopyFootprint around, mat2 linear, vec2 centre, out CopyFootprint p
     vec2 lower = part.centre - part.halfBox, upper = part.centre + part.halfBox;
     part.lower = clamp(lower, 0.0, lastPlace);
     part.upper = clamp(upper, 0.0, 1.0);
-    vec2 fromCentre = part.toBox * (0.5 - part.centre);
-    vec2 reach = (abs(part.toBox[0]) + abs(part.toBox[1])) * 0.5 + 0.5;
-    return all(lessThan(lower, vec2(1.0))) && all(greaterThan(upper, vec2(0.0))) &&
-           all(lessThan(abs(fromCentre), reach));
+    return part;
+}
+
+// Whether a footprint over a map meets its square.
+bool meetsMap(CopyFootprint part) {
+    return all(lessThan(part.centre - part.halfBox, vec2(1.0))) && all(greaterThan(part.centre + part.halfBox, vec2(0.0))) &&
+           meetsBox(part, vec2(0.5), vec2(0.5));
 }
