@@ -43,7 +43,7 @@ HiddenLayers::HiddenLayers(const LoweredScene& picture, const ViewChains& chains
     const std::vector<LayerCover> covers = layerCovers(picture);
     for (int band = 0; band < chains.bands(); ++band) {
         takeChains(band);
-        makeSquares(band, most / chains.bands());
+        makeSquares(band, most * bandRows / height);
         lookAt(band, covers);
     }
 }
