@@ -27,6 +27,8 @@ constexpr double manyInBands = 1u << 17, squaresOfChain = 8, mostSquares = 1u <<
 /// Then layers cover no more, and only ask whether they are hidden.
 constexpr std::size_t mostSquareVisits = 1u << 26;
 
+/// Wider squares are upright: outlines bend among them.
+constexpr float mostLeaningWidth = 1.0f / 4;
 /// So many chains of a band tell how its squares lean, or a few less.
 constexpr std::size_t chainsThatTell = 1u << 12;
 
@@ -144,7 +146,8 @@ void HiddenLayers::follow(const DownChain& chain, std::uint32_t& at, float top, 
 /// As some of the band's chains go.
 void HiddenLayers::leanSquares(float top) {
     std::ranges::fill(leanings_, Leaning{});
-    for (std::size_t i = 0; i < numbers_.size(); i += numbers_.size() / chainsThatTell + 1) {
+    const std::size_t telling = squareWidth_ <= mostLeaningWidth ? numbers_.size() : 0;
+    for (std::size_t i = 0; i < telling; i += numbers_.size() / chainsThatTell + 1) {
         std::uint32_t at = at_[numbers_[i]];
         follow(chains_[numbers_[i]], at, top, [&](const Passage& p) {
             if (p.spans)
