@@ -1,6 +1,7 @@
 #include "compiler/direct/hidden_layers.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include <vtm/limits/limits.hpp>
@@ -14,8 +15,11 @@ using asset::bandRows;
 
 /// Squares are at least so large, in pixels.
 constexpr float leastWidth = 1.0f / 8, leastHeight = 1.0f / 2;
-/// Or twice as high, where chains are higher than this in the mean: then it is still little.
-constexpr double highChains = 8;
+/// And so high in bands that one of so many chains spans: where outlines go on, it is still little. Or
+/// higher, where it would take too long.
+constexpr float higher = 1, highest = 2;
+constexpr std::ptrdiff_t spanningOfOthers = 8;
+constexpr std::size_t manyChains = 1u << 17;
 /// One for so many pixels, but no more in all.
 constexpr double fewPixels = 4, fewSquares = 1u << 18;
 /// Where chains meet bands so many times, as many squares for each time; but no more in all.
@@ -23,30 +27,59 @@ constexpr double manyInBands = 1u << 17, squaresOfChain = 8, mostSquares = 1u <<
 /// Then layers cover no more, and only ask whether they are hidden.
 constexpr std::size_t mostSquareVisits = 1u << 26;
 
+/// Wider squares are upright: outlines bend among them.
+constexpr float mostLeaningWidth = 1.0f / 4;
+/// So many chains of a band tell how its squares lean, or a few less.
+constexpr std::size_t chainsThatTell = 1u << 12;
+
 }  // namespace
 
 HiddenLayers::HiddenLayers(const LoweredScene& picture, const ViewChains& chains, int width, int height)
-    : picture_(picture), chains_(chains), squareWidth_(leastWidth), squareHeight_(leastHeight) {
-    double rows = 0;
-    for (const DownChain& chain : chains.all()) {
+    : picture_(picture), chains_(chains), width_(width) {
+    for (const DownChain& chain : chains.all())
         at_.push_back(chain.first);
-        rows += std::min(double(chain.bottom), double(height)) - std::max(double(chain.top), 0.0);
-    }
-    if (rows > highChains * double(at_.size()))
-        squareHeight_ *= 2;
     const double pixels = double(width) * height, inBands = double(chains.inBands()),
                  few = std::min(fewSquares, pixels / fewPixels),
                  most = inBands < manyInBands ? few : std::clamp(squaresOfChain * inBands, few, mostSquares);
-    while (pixels > most * squareWidth_ * squareHeight_)
+    isHidden_.resize(picture.layers.size() * std::size_t(chains.bands()));
+    const std::vector<LayerCover> covers = layerCovers(picture);
+    for (int band = 0; band < chains.bands(); ++band) {
+        takeChains(band);
+        makeSquares(band, most * bandRows / height);
+        lookAt(band, covers);
+    }
+}
+
+/// The numbers of the band's chains, those of the topmost layers first: layers ascend with them.
+void HiddenLayers::takeChains(int band) {
+    const auto top = float(band * bandRows);
+    std::erase_if(numbers_, [&](std::uint32_t number) { return chains_[number].bottom < top; });
+    const auto fromAbove = std::ptrdiff_t(numbers_.size());
+    const std::span<const std::uint32_t> chains = chains_.inBand(band);
+    numbers_.insert(numbers_.end(), chains.begin() + fromAbove, chains.end());
+    std::ranges::sort(numbers_.begin() + fromAbove, numbers_.end(), std::greater());
+    std::ranges::inplace_merge(numbers_, numbers_.begin() + fromAbove, std::greater());
+}
+
+/// No more of them than `most`.
+void HiddenLayers::makeSquares(int band, double most) {
+    const auto top = float(band * bandRows), bottom = float((band + 1) * bandRows);
+    const auto spanning = std::ranges::count_if(numbers_, [&](std::uint32_t number) {
+        return chains_[number].top <= top && chains_[number].bottom >= bottom;
+    });
+    const std::ptrdiff_t others = std::ptrdiff_t(numbers_.size()) - spanning;
+    squareWidth_ = leastWidth;
+    squareHeight_ = spanningOfOthers * spanning <= others ? leastHeight
+                    : numbers_.size() <= manyChains       ? higher
+                                                          : highest;
+    while (double(width_) * bandRows > most * squareWidth_ * squareHeight_)
         (squareWidth_ < squareHeight_ || squareHeight_ == bandRows ? squareWidth_ : squareHeight_) *= 2;
-    columns_ = std::int32_t(float(width) / squareWidth_) + 1;
+    columns_ = std::int32_t(float(width_) / squareWidth_) + 1;
     rows_ = std::int32_t(bandRows / squareHeight_);
     squares_.resize(std::size_t(rows_) * std::size_t(columns_ + 1));
     touches_.resize(std::size_t(rows_));
-    isHidden_.resize(picture.layers.size() * std::size_t(chains.bands()));
-    const std::vector<LayerCover> covers = layerCovers(picture);
-    for (int band = 0; band < chains.bands(); ++band)
-        lookAt(band, covers);
+    leanings_.resize(std::size_t(rows_) * std::size_t(columns_ / leaningColumns + 1));
+    above_.resize(std::size_t(rows_) * std::size_t(columns_));
 }
 
 void HiddenLayers::lookAt(int band, std::span<const LayerCover> covers) {
@@ -54,8 +87,7 @@ void HiddenLayers::lookAt(int band, std::span<const LayerCover> covers) {
     for (std::int32_t row = 0; row < rows_; ++row)
         squaresOf(row).clear();
     stepsLeft_ = mostSquareVisits / std::size_t(chains_.bands());
-    numbers_.assign(chains_.inBand(band).begin(), chains_.inBand(band).end());
-    std::ranges::sort(numbers_, std::greater());  // layers ascend with them
+    leanSquares(float(band * bandRows));
     for (std::size_t i = 0; i < numbers_.size();) {
         const std::size_t before = i;
         const std::uint32_t layer = chains_[numbers_[i]].layer;
@@ -71,14 +103,13 @@ void HiddenLayers::lookAt(int band, std::span<const LayerCover> covers) {
     }
 }
 
-/// Where a chain goes in the band.
-void HiddenLayers::touch(const DownChain& chain, std::uint32_t& at, float top) {
+/// Calls take(passage) for each row of the band that a chain meets.
+template <class Take>
+void HiddenLayers::follow(const DownChain& chain, std::uint32_t& at, float top, const Take& take) const {
     const glm::vec2* const vertices = chains_.vertices();
-    const auto within = [](float place, std::int32_t count) {
-        return std::int32_t(std::clamp(place, 0.0f, float(count - 1)));
+    const auto row = [&](float y) {
+        return std::int32_t(std::clamp((y - top) / squareHeight_, 0.0f, float(rows_ - 1)));
     };
-    const auto column = [&](float x) { return within(x / squareWidth_, columns_); };
-    const auto row = [&](float y) { return within((y - top) / squareHeight_, rows_); };
     const auto xAt = [&](float y) {
         const glm::vec2 a = vertices[at], b = vertices[at + 1];
         return a.x + (y - a.y) * ((b.x - a.x) / (b.y - a.y));
@@ -88,21 +119,79 @@ void HiddenLayers::touch(const DownChain& chain, std::uint32_t& at, float top) {
     float x = vertices[at].y < top && at + 1 < chain.end ? xAt(top) : vertices[at].x;
     const std::int32_t last = row(chain.bottom);
     for (std::int32_t r = row(chain.top); r <= last; ++r) {
-        const float bottom = top + float(r + 1) * squareHeight_, middle = bottom - 0.5f * squareHeight_;
-        float left = x, right = x;
-        const auto add = [&](float to) {
-            left = std::min(left, to);
-            right = std::max(right, to);
-            x = to;
-        };
-        while (at + 1 < chain.end && vertices[at + 1].y <= bottom)
-            add(vertices[++at].x);
-        if (at + 1 < chain.end && vertices[at].y < bottom)
-            add(xAt(bottom));
-        // What is not met in the middle adds nothing on its right.
-        touches_[std::size_t(r)].push_back(
-            {column(left), column(right), chain.top <= middle && middle < chain.bottom ? chain.winding : 0});
+        const float upper = top + float(r) * squareHeight_, lower = upper + squareHeight_,
+                    middle = lower - 0.5f * squareHeight_, from = x;
+        const std::uint32_t first = at;
+        while (at + 1 < chain.end && vertices[at + 1].y <= lower)
+            x = vertices[++at].x;
+        if (at + 1 < chain.end && vertices[at].y < lower)
+            x = xAt(lower);
+        // Where it spans the row it strays from the line between its ends; else it is between upright lines.
+        const bool spans = chain.top <= upper && lower <= chain.bottom;
+        const float along = spans ? x - from : 0;
+        float less = std::min(0.0f, x - along - from), more = std::max(0.0f, x - along - from);
+        for (std::uint32_t v = first + 1; v <= at; ++v) {
+            const float strays = vertices[v].x - (from + (vertices[v].y - upper) * (along / squareHeight_));
+            less = std::min(less, strays);
+            more = std::max(more, strays);
+        }
+        take(Passage{.row = r,
+                     .left = from + less + glm::vec2(0, along),
+                     .right = from + more + glm::vec2(0, along),
+                     .spans = spans,
+                     .isAtMiddle = chain.top <= middle && middle < chain.bottom});
     }
+}
+
+/// As some of the band's chains go.
+void HiddenLayers::leanSquares(float top) {
+    std::ranges::fill(leanings_, Leaning{});
+    const std::size_t telling = squareWidth_ <= mostLeaningWidth ? numbers_.size() : 0;
+    for (std::size_t i = 0; i < telling; i += numbers_.size() / chainsThatTell + 1) {
+        std::uint32_t at = at_[numbers_[i]];
+        follow(chains_[numbers_[i]], at, top, [&](const Passage& p) {
+            if (p.spans)
+                leaningsOf(p.row)[std::size_t(columnOf(p.left[0]) / leaningColumns)].add(
+                    double(p.left[1] - p.left[0]) / squareWidth_);
+        });
+    }
+    for (std::int32_t row = 0; row < rows_; ++row)
+        leanRow(row, leaningsOf(row));
+}
+
+/// Where too few chains tell, squares lean as the nearest ones do.
+void HiddenLayers::leanRow(std::int32_t row, std::span<const Leaning> leanings) {
+    const auto groups = std::int32_t(leanings.size());
+    const auto nextThatTells = [&](std::int32_t g) {
+        while (g < groups && !leanings[std::size_t(g)].tells())
+            ++g;
+        return g;
+    };
+    std::int32_t* const above = &above_[std::size_t(row) * std::size_t(columns_)];
+    std::int32_t known = nextThatTells(0), next = nextThatTells(known + 1), done = 0;
+    for (std::int32_t column = 0; column < columns_; ++column) {
+        const std::int32_t group = column / leaningColumns;
+        if (next < groups && next - group < group - known) {
+            known = next;
+            next = nextThatTells(known + 1);
+        }
+        const double shift = known < groups ? leanings[std::size_t(known)].mean() : 0;
+        // Where squares would overlap below, those on the right have no width there.
+        for (const double left = std::min(column + std::round(shift), double(columns_)); done < left; ++done)
+            above[done] = std::max(column - 1, 0);
+    }
+    std::fill(above + done, above + columns_, columns_ - 1);
+}
+
+/// Notes the squares that a chain touches in the band.
+void HiddenLayers::touch(const DownChain& chain, std::uint32_t& at, float top) {
+    follow(chain, at, top, [&](const Passage& p) {
+        // What is not met in the middle adds nothing on its right.
+        touches_[std::size_t(p.row)].push_back(
+            {std::min(columnOf(p.left[0]), squareAbove(p.row, p.left[1])),
+             std::max(columnOf(p.right[0]), squareAbove(p.row, p.right[1])),
+             p.isAtMiddle ? chain.winding : 0});
+    });
 }
 
 /// Whether the layer shows in the band.

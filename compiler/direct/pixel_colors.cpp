@@ -86,7 +86,7 @@ void PixelColors::beginRow(int row) {
         pixel.below = {};
         pixel.isSteep = false;
         pixel.isBlended = false;
-        pixel.known.fill({});
+        pixel.known.keys.fill(0);
     }
 }
 
@@ -112,20 +112,27 @@ void PixelColors::add(const RegionState& state, std::uint32_t layer, std::int32_
 
 glm::vec4 PixelColors::color(const RegionState& state, const PixelPlace& place) {
     Pixel& pixel = pixels_[std::size_t(place.x)];
-    Known& known = pixel.known[state.key() % pixel.known.size()];
-    if (known.key != state.key()) {
-        if (pixel.parts.empty())
-            divide(pixel);
-        known = {state.key(),
-                 pixel.isSteep ? composite<4>(state, pixel, place.x) : composite<1>(state, pixel, place.x)};
-    }
-    const Quarters& quarters = known.quarters;
+    const Quarters& quarters = regionOf(state, pixel, place.x);
     if (!pixel.isSteep)
         return vectorOf(quarters[0]);
     const glm::vec2 middle = glm::clamp(2.0f * place.middle - 0.5f, 0.0f, 1.0f);
     const Float4 upper = quarters[0] + middle.x * (quarters[1] - quarters[0]),
                  lower = quarters[2] + middle.x * (quarters[3] - quarters[2]);
     return vectorOf(upper + middle.y * (lower - upper));
+}
+
+const PixelColors::Quarters& PixelColors::regionOf(const RegionState& state, Pixel& pixel, int x) const {
+    Known& known = pixel.known;
+    const auto at = std::ranges::find(known.keys, state.key()) - known.keys.begin();
+    if (std::size_t(at) < known.keys.size())
+        return known.quarters[std::size_t(at)];
+    if (pixel.parts.empty())
+        divide(pixel);
+    known.keys[known.next] = state.key();
+    Quarters& quarters = known.quarters[known.next];
+    known.next = (known.next + 1) % known.keys.size();
+    quarters = pixel.isSteep ? composite<4>(state, pixel, x) : composite<1>(state, pixel, x);
+    return quarters;
 }
 
 void PixelColors::divide(Pixel& pixel) const {

@@ -68,19 +68,21 @@ private:
         bool isKnown = false;  ///< its colours: the same in all regions
         Quarters colors{};
     };
-    /// A region's.
+    /// Regions that were asked for last, by their keys.
     struct Known {
-        std::uint64_t key = 0;  ///< that of no layers
-        Quarters quarters{};
+        static constexpr std::size_t most = 16;
+        std::array<std::uint64_t, most> keys{};  ///< 0 is that of no layers
+        std::array<Quarters, most> quarters;
+        std::size_t next = 0;  ///< to be forgotten
     };
     struct Pixel {
         std::vector<Listed> layers;  ///< from the top
         std::vector<Part> parts;     ///< from the top; none until it is asked
         std::vector<Quarters> colors;
         LightBelow below;
-        bool isSteep = false;        ///< one of the layers
-        bool isBlended = false;      ///< one of the parts
-        std::array<Known, 8> known;  ///< that were asked for last
+        bool isSteep = false;    ///< one of the layers
+        bool isBlended = false;  ///< one of the parts
+        Known known;
     };
     /// Of the picture's sources and groups.
     struct Sources {
@@ -102,6 +104,7 @@ private:
     bool isBlended(std::uint32_t outer) const {
         return outer != noIndex && picture_.groups[outer].blend != scene::BlendMode::Normal;
     }
+    const Quarters& regionOf(const RegionState& state, Pixel& pixel, int x) const;
     void divide(Pixel& pixel) const;
     template <std::size_t quarters>
     Quarters composite(const RegionState& state, Pixel& pixel, int x) const;

@@ -31,10 +31,10 @@ using BandChords = std::vector<asset::Chord>;
 constexpr std::size_t chordsAtOnce = 1u << 15;
 /// After so many of a strip its paints are forgotten.
 constexpr std::size_t mostStripChords = 1u << 19;
-/// And so many paints are remembered.
-constexpr std::size_t paintsAtOnce = 1u << 18;
-/// Fewer are kept.
-constexpr std::size_t keptPaints = 1u << 12;
+/// And so many colours are remembered.
+constexpr std::size_t colorsAtOnce = 1u << 18;
+/// Fewer are kept for the next strip. Programs are not: how many a strip remembers tells how it is drawn.
+constexpr std::size_t keptColors = 1u << 12;
 
 /// A picture of more chords than that is drawn with a coarser tolerance: edges that lie so close hide most of
 /// each other, and what chords miss on both sides of curves cancels.
@@ -171,7 +171,8 @@ struct PlainDrawing::Impl {
         std::size_t chords = 0, inStrip = 0;
         worker.swept = 0;
         for (int band = first; band < end; ++band) {
-            const bool beginsStrip = band % stripBands == 0, endsStrip = (band + 1) % stripBands == 0;
+            const bool beginsStrip = band % stripBands == 0,
+                       endsStrip = (band + 1) % stripBands == 0 || band + 1 == end;
             if (beginsStrip)
                 inStrip = 0;
             if (worker.swept == worker.bands.size())
@@ -182,7 +183,9 @@ struct PlainDrawing::Impl {
             worker.mustBegin = false;
             inStrip += made.size();
             chords += made.size();
-            const bool isMuch = chords >= chordsAtOnce || worker.state.colors().size() >= paintsAtOnce;
+            const RegionState& state = worker.state;
+            const bool isMuch =
+                chords >= chordsAtOnce || state.colors().size() >= colorsAtOnce || !state.programs().empty();
             const bool forgets = inStrip >= mostStripChords;
             if (band + 1 < end && !forgets && !(endsStrip && isMuch))
                 continue;
@@ -191,7 +194,7 @@ struct PlainDrawing::Impl {
             chords = 0;
             worker.swept = 0;
             if (forgets ||
-                (endsStrip && worker.state.colors().size() + worker.state.programs().size() >= keptPaints)) {
+                (endsStrip && (state.colors().size() >= keptColors || !state.programs().empty()))) {
                 worker.state.forgetPaints();
                 worker.mustBegin = true;
                 inStrip = 0;

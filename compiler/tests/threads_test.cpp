@@ -3,6 +3,7 @@
 #include <vtm/compiler/compile.hpp>
 #include <vtm/compiler/draw_view.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -94,6 +95,27 @@ scene::Scene filtered() {
     return scene;
 }
 
+/// Rectangles of a gradient, multiplied.
+scene::Scene blendedGradients(int count) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> place(-4, 100), size(1, 12);
+    scene::Scene scene{100, 100, {}};
+    for (int i = 0; i < count; ++i) {
+        const Point from(place(random), place(random)), to = from + Point(size(random), size(random));
+        scene::Item item;
+        item.path = std::make_shared<const scene::Path>(
+            scene::Path{scene::MoveTo{from}, scene::LineTo{{to.x, from.y}}, scene::LineTo{to},
+                        scene::LineTo{{from.x, to.y}}, scene::Close{}});
+        item.geometry = scene::FillRule::NonZero;
+        item.paint = scene::LinearGradient{from, to, {{0, {1, 0.2f, 0.2f, 0.5f}}, {1, {0.2f, 0.2f, 1, 1}}}};
+        scene::Group group;
+        group.blend = scene::BlendMode::Multiply;
+        group.children.push_back({item});
+        scene.root.children.push_back({std::move(group)});
+    }
+    return scene;
+}
+
 template <class Make>
 auto madeBy(int threads, const Make& make) {
     decltype(make()) made;
@@ -147,6 +169,22 @@ TEST(Threads, DrawTheSameView) {
         return pixels;
     };
     EXPECT_EQ(madeBy(1, bytes), madeBy(5, bytes));
+}
+
+/// How many programs a strip remembers tells how the rest of it is drawn.
+TEST(Threads, DrawStripsOfManyProgramsTheSame) {
+    constexpr int side = 200, strip = 64;
+    const scene::Scene scene = blendedGradients(1500);
+    asset::View view{side, side, {}};
+    view.toPixels = {2, 0, 0, 2, 0, 0};
+    const auto drawing = ViewDrawing::make(scene, view);
+    const image::Raster all = madeBy(1, [&] { return drawing->draw(); });
+    for (int first = 0; first < side; first += strip)
+        drawing->scan(first, std::min(first + strip, side), [&](int y, const asset::ColorRun& run) {
+            for (int x = run.first; x < run.end; ++x)
+                for (int c = 0; c < 4; ++c)
+                    ASSERT_EQ(all.pixel(x, y)[c], std::clamp(run.color[c], 0.0f, 1.0f)) << x << ", " << y;
+        });
 }
 
 }  // namespace
