@@ -29,8 +29,10 @@ constexpr std::size_t mostSquareVisits = 1u << 26;
 
 /// Wider squares are upright: outlines bend among them.
 constexpr float mostLeaningWidth = 1.0f / 4;
-/// So many chains of a band tell how its squares lean, or a few less.
+/// About so many chains of a band tell how its squares lean.
 constexpr std::size_t chainsThatTell = 1u << 12;
+/// By it, modulo 2³², numbers that follow each other are scattered evenly.
+constexpr std::uint32_t goldenRatio = 0x9E3779B9u;
 
 }  // namespace
 
@@ -143,13 +145,15 @@ void HiddenLayers::follow(const DownChain& chain, std::uint32_t& at, float top, 
     }
 }
 
-/// As some of the band's chains go.
+/// As some of the band's chains go: scattered ones, since every other chain of regular layers is a left side.
 void HiddenLayers::leanSquares(float top) {
     std::ranges::fill(leanings_, Leaning{});
-    const std::size_t telling = squareWidth_ <= mostLeaningWidth ? numbers_.size() : 0;
-    for (std::size_t i = 0; i < telling; i += numbers_.size() / chainsThatTell + 1) {
-        std::uint32_t at = at_[numbers_[i]];
-        follow(chains_[numbers_[i]], at, top, [&](const Passage& p) {
+    const std::size_t all = numbers_.size(), telling = squareWidth_ > mostLeaningWidth ? 0 : chainsThatTell;
+    for (const std::uint32_t number : numbers_) {
+        if (std::uint64_t(number * goldenRatio) * all >= std::uint64_t(telling) << 32)
+            continue;
+        std::uint32_t at = at_[number];
+        follow(chains_[number], at, top, [&](const Passage& p) {
             if (p.spans)
                 leaningsOf(p.row)[std::size_t(columnOf(p.left[0]) / leaningColumns)].add(
                     double(p.left[1] - p.left[0]) / squareWidth_);

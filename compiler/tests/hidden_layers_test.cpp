@@ -130,6 +130,12 @@ TEST(HiddenLayers, AreMostOfNearlyEqualOutlines) {
     EXPECT_GE(
         hiddenShare(nearlyEqualShapes({{5, 10}, {60, 12}, {124, 120}, {70, 118}}, 0.5, numbers), numbers),
         share);
+    // Four sides side by side: all of them tell.
+    EXPECT_GE(
+        hiddenShare(nearlyEqualShapes({{4, 4}, {28, 4}, {64, 92}, {100, 4}, {124, 4}, {76, 124}, {52, 124}},
+                                      0.5, numbers),
+                    numbers),
+        share);
 }
 
 TEST(HiddenLayers, ShowNowhere) {
