@@ -32,7 +32,7 @@ constexpr float mostReach = 0.25f;
 constexpr int mostSmallSteps = 1024;
 
 /// Where so many chains are cut, or more, of so many layers, those are looked for that are hidden in a step.
-constexpr std::size_t manyCuts = 1u << 14, manyLayers = 64;
+constexpr std::size_t manyCuts = 1u << 10, manyLayers = 64;
 /// So many chains before one is looked at, its vertices are fetched.
 constexpr std::size_t ahead = 16;
 /// On a row of squares so many to a pixel.
