@@ -152,7 +152,7 @@ public:
     /// Calls run(first column, end, value) for the row's stretches of one value, in order, and clears it.
     template <class Run>
     void resolve(std::size_t row, Run&& run) {
-        resolve(row, 0, width_, run);
+        resolve(row, 0, width_ + 1, run);  // what ends at the right border is added to two columns beyond it
     }
     /// The same of a row to which only columns first to end - 1 and the next one were added.
     template <class Run>
