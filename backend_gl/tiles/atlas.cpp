@@ -148,15 +148,62 @@ const asset::Scanner& ScannedPixels::scannerFor(asset::Sums sums) {
     return *scanner;
 }
 
-void ScannedPixels::scan(const asset::View& view, const PixelBox& box, asset::Sums sums) {
-    const glm::ivec2 size = box.size();
-    const asset::View part{
-        size.x, size.y, {view.toPixels[0], view.toPixels[1], view.toPixels[2] - glm::dvec2(box.min)}};
+namespace {
+
+int blocksAcross(const PixelBox& box) {
+    return (box.max.x + blockSide - 1) / blockSide - box.min.x / blockSide;
+}
+
+/// So many blocks of a row stand beside each other, among the scanned ones, too.
+std::size_t runAt(std::span<const glm::ivec2> corners, std::size_t first, std::size_t columns) {
+    std::size_t end = first + 1;
+    while (end < corners.size() && end % columns != 0 &&
+           corners[end] == corners[end - 1] + glm::ivec2(blockSide, 0))
+        ++end;
+    return end - first;
+}
+
+/// So many rows of `columns` blocks stand below each other.
+std::size_t rowsAt(std::span<const glm::ivec2> corners, std::size_t first, std::size_t columns) {
+    std::size_t rows = 1;
+    for (std::size_t next = first + columns; next + columns <= corners.size(); next += columns, ++rows)
+        if (corners[next] != corners[next - columns] + glm::ivec2(0, blockSide) ||
+            runAt(corners, next, columns) != columns)
+            break;
+    return rows;
+}
+
+}  // namespace
+
+glm::ivec2 scannedPlace(std::size_t i, const PixelBox& box) {
+    const auto columns = std::size_t(blocksAcross(box));
+    return blockSide * glm::ivec2(i % columns, i / columns);
+}
+
+/// Box by box, as blocks beside and below each other make them.
+void ScannedPixels::scan(const asset::View& view, std::span<const glm::ivec2> corners, const PixelBox& box,
+                         asset::Sums sums) {
+    const auto columns = std::size_t(blocksAcross(box));
+    const glm::ivec2 size(blockSide * int(columns), scannedPlace(corners.size() - 1, box).y + blockSide);
     std::vector<glm::vec4> pixels(std::size_t(size.x) * std::size_t(size.y));
-    scannerFor(sums).scan(part, [&](int y, const asset::ColorRun& run) {
-        glm::vec4* const row = pixels.data() + std::size_t(y) * std::size_t(size.x);
-        std::fill(row + run.first, row + run.end, run.color);
-    });
+    for (std::size_t first = 0; first < corners.size();) {
+        const std::size_t run = runAt(corners, first, columns),
+                          rows = run == columns ? rowsAt(corners, first, columns) : 1;
+        const asset::View part{
+            blockSide * int(run),
+            blockSide * int(rows),
+            {view.toPixels[0], view.toPixels[1], view.toPixels[2] - glm::dvec2(corners[first])}};
+        const glm::ivec2 place = scannedPlace(first, box);
+        scannerFor(sums).scan(part, [&](int y, const asset::ColorRun& colors) {
+            glm::vec4* const row = pixels.data() + std::size_t(place.y + y) * std::size_t(size.x) + place.x;
+            std::fill(row + colors.first, row + colors.end, colors.color);
+        });
+        first += run * rows;
+    }
+    send(size, pixels);
+}
+
+void ScannedPixels::send(glm::ivec2 size, const std::vector<glm::vec4>& pixels) {
     if (texture_.get() == 0 || size.x > size_.x || size.y > size_.y) {
         size_ = glm::max(size_, size);
         texture_ = makeTexture(GL_RGBA32F, size_.x, size_.y);
@@ -256,26 +303,24 @@ std::vector<std::vector<const PlanarPiece*>> piecesNear(const asset::PlanarMap& 
     return near;
 }
 
-bool isCrowdedAllOver(const Tile& tile) {
-    return !tile.crowded.empty() && tile.crowded.size() == tile.texels.size();
-}
+bool isCrowdedAllOver(const Tile& tile) { return tile.crowded == allCells; }
 
 }  // namespace
 
 Atlas::Placed Atlas::place(Tile tile) {
-    Placed placed{.flat = tile.isFlat,
-                  .paints = tile.paints,
+    Placed placed{.paints = tile.paints,
                   .programs = tile.programs,
                   .steepness = tile.steepness,
-                  .paint = tile.paint,
-                  .words = tile.words,
                   .firstTexel = std::uint32_t(texels_.size()),
                   .firstPair = tile.firstPair,
                   .pairs = tile.pairs,
                   .firstCell = tile.firstCell,
                   .texelCount = std::uint32_t(tile.texels.size()),
                   .grid = tile.grid,
-                  .crowded = std::move(tile.crowded),
+                  .hasLongLists = tile.hasLongLists,
+                  .mixed = tile.mixed,
+                  .programmed = tile.programmed,
+                  .crowded = tile.crowded,
                   .used = picture_};
     texels_.insert(texels_.end(), tile.texels.begin(), tile.texels.end());
     return placed;
@@ -297,12 +342,18 @@ std::size_t Atlas::update(const asset::Difference& difference, const PaintUpdate
 }
 
 std::optional<asset::Texel> Atlas::twoColors(const Placed& tile) const {
-    if (tile.flat || tile.paints != TilePaints::Solid || tile.pairs == 0 || tile.pairs > 2)
+    if (tile.paints != TilePaints::Solid || tile.pairs == 0 || tile.pairs > 2)
         return std::nullopt;
     const std::span pairs = std::span(texels_).subspan(tile.firstTexel + tile.firstPair, 2 * tile.pairs);
     if (tile.pairs == 2 && std::rotl(pairs[1][0], 16) != pairs[3][0])
         return std::nullopt;
     return pairs[0];
+}
+
+const asset::Texel& Atlas::cellAt(const Placed& tile, unsigned column, unsigned row) const {
+    const unsigned log2 = tile.grid.log2;
+    const auto inGrid = [&](unsigned place) { return place << log2 >> tileCellsLog2; };
+    return texels_[tile.firstTexel + tile.firstCell + (inGrid(row) << log2) + inGrid(column)];
 }
 
 /// Tiles that show something of the squares.
@@ -326,8 +377,6 @@ std::size_t Atlas::recolorAll(const PaintUpdate& changed) {
     const std::span isChanged = std::span(changed.isChanged).subspan(firstPaint_);
     std::size_t sent = 0;
     for (const auto& [at, tile] : placed_) {
-        if (tile.flat)
-            continue;
         const std::span texels = std::span(texels_).subspan(tile.firstTexel, tile.texelCount);
         if (!recolor(texels, tile.firstPair, tile.pairs, tile.firstCell, paints(), isChanged) ||
             tile.firstTexel >= uploaded_)

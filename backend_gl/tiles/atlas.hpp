@@ -38,6 +38,9 @@ struct PaintUpdate {
 /// Brings it to the next asset, that differs from the one before by squares and paints alone.
 PaintUpdate update(KeptAsset& kept, const asset::AssetView& asset, const asset::Difference& difference);
 
+/// Where the i-th of a box's blocks stands among scanned ones: they fill rows as long as the box's.
+glm::ivec2 scannedPlace(std::size_t i, const PixelBox& box);
+
 /// Of one map and those in it, for one view after the other.
 class ScannedPixels {
 public:
@@ -49,14 +52,17 @@ public:
 
     /// The asset is another one now.
     void update(const asset::Difference& difference);
-    /// Puts the pixels of a box, that is not empty, into the texture. Materials have their fallback colours.
-    void scan(const asset::View& view, const PixelBox& box, asset::Sums sums);
-    /// RGBA32F, the box's first pixel at (0, 0): what tile shaders add up, premultiplied.
+    /// Puts blocks of a box into the texture, each where scannedPlace() says. `corners`: their first pixels,
+    /// row by row. Materials have their fallback colours.
+    void scan(const asset::View& view, std::span<const glm::ivec2> corners, const PixelBox& box,
+              asset::Sums sums);
+    /// RGBA32F: what tile shaders add up, premultiplied.
     const TextureHandle& texture() const { return texture_; }
 
 private:
     const asset::Scanner& scannerFor(asset::Sums sums);
     asset::AssetView drawing() const;
+    void send(glm::ivec2 size, const std::vector<glm::vec4>& pixels);
 
     const asset::Asset* asset_;
     std::uint32_t map_, firstPaint_;
@@ -89,16 +95,14 @@ public:
 
     /// What is kept of a Tile.
     struct Placed {
-        bool flat = false;  ///< one paint, no cells
         TilePaints paints = TilePaints::Solid;
         bool programs = false;  ///< those of programs among them
         float steepness = 0;
-        std::uint32_t paint = 0;  ///< of a flat one, of the map
-        PaintWords words{};       ///< of that paint
         std::uint32_t firstTexel = 0, firstPair = 0, pairs = 0, firstCell = 0, texelCount = 0;
         CellGrid grid;
-        std::vector<std::uint16_t> crowded;  ///< cells whose pixels are scanned
-        std::uint64_t used = 0;              ///< by which picture, the last time
+        bool hasLongLists = false;
+        CellSet mixed{}, programmed{}, crowded{};
+        std::uint64_t used = 0;  ///< by which picture, the last time
     };
     /// Squares of a level: [min, max), row by row.
     struct Region {
@@ -112,6 +116,8 @@ public:
     /// Of a tile of solid paints, the colours beside pieces of its first pair, where no other pair but its
     /// reverse is.
     std::optional<asset::Texel> twoColors(const Placed& tile) const;
+    /// A cell of the first grid, of whose cells in finer ones the first.
+    const asset::Texel& cellAt(const Placed& tile, unsigned column, unsigned row) const;
     /// How a view's scale goes on from the one that was told last, if it comes near another level so.
     struct Zoom {
         int levels;    ///< 1 or -1

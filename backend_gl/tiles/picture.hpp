@@ -12,8 +12,8 @@ namespace vtm::gl {
 struct PictureBuffers {
     PictureBuffers();
 
-    VertexArrayHandle flatArray, tileArray;
-    BufferHandle flat, tile;
+    VertexArrayHandle flatArray, blockArray;
+    BufferHandle flat, block;
 };
 
 /// Draws into the bound framebuffer, `view` fitting the viewport, on what stands there if blending is on: all

@@ -77,8 +77,12 @@ public:
     /// In the order of their numbers.
     void put(std::uint32_t paint, const PaintWords& words) { programs_.emplace_back(paint, words); }
     PaintWords of(std::uint32_t paint) const;
+    /// Whether these are a colour.
+    bool isColor(std::uint32_t paint) const;
 
 private:
+    const PaintWords* put(std::uint32_t paint) const;
+
     std::span<const asset::Paint> paints_;
     std::vector<std::pair<std::uint32_t, PaintWords>> programs_;
 };

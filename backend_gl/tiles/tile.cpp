@@ -103,11 +103,19 @@ Lists listsOf(const CellGrid& grid, const std::vector<PlanarPiece>& pieces, doub
 /// cost more than that.
 constexpr double longList = 8, longestList = 30;
 
-CellGrid gridFor(const Lists& lists) {
+/// With more than these, whatever the grid, shaders meet two pieces at a time (tile_fragment.glsl).
+constexpr double longInMean = 4.5;
+
+/// Of the lists that are not empty.
+double meanLength(const Lists& lists) {
     std::size_t cells = 0;
     for (std::size_t i = 0; i + 1 < lists.first.size(); ++i)
         cells += lists.of(i).empty() ? 0 : 1;
-    const double mean = double(lists.numbers.size()) / double(cells);
+    return double(lists.numbers.size()) / double(cells);
+}
+
+CellGrid gridFor(const Lists& lists) {
+    const double mean = meanLength(lists);
     return {mean > longestList ? maxCellsLog2 : mean > longList ? tileCellsLog2 + 1 : tileCellsLog2};
 }
 
@@ -307,32 +315,40 @@ private:
     RoughCells rough_;
 };
 
-/// Of one paint, without cells, unless there are some that shaders do not draw.
-Tile flatTile(const TileSource& source, const CellPlaces& places, std::uint32_t paint) {
+/// A cell of a grid, in a set.
+void put(CellSet& set, const CellGrid& grid, int column, int row) {
+    const unsigned finer = grid.log2 - tileCellsLog2;
+    set[std::size_t(row) >> finer] |= std::uint16_t(1u << (unsigned(column) >> finer));
+}
+
+constexpr CellGrid oneCell{0};
+
+/// Of one paint. It has one cell, unless there are some that shaders do not draw.
+Tile tileOfOnePaint(const TileSource& source, const CellPlaces& places, std::uint32_t paint) {
     Tile tile;
-    tile.paint = paint;
     const PaintsNear paints = paintsNear(source, places, {&paint, 1});
     const TileWords words = putPaints(source, places, paints, tile);
-    tile.words = words.of(paint);
-    tile.isFlat = true;
-    if (tile.paints != TilePaints::Any)
-        return tile;
+    if (!words.isColor(paint))
+        tile.programmed = allCells;
     const std::vector<PlanarPiece> none;
     const HandedOver isHandedOver(source, places, paints);
+    const Reference here{dvec2(0.5), 0, paint};
     CellWriter writer(words, source.changes, none, tile.texels);
     std::vector<Texel> cells;
-    const int side = tile.grid.cellsPerSide();
-    for (int cell = 0; cell < side * side; ++cell) {
-        const Reference here{dvec2(0.5), 0, paint};
-        const bool crowded =
-            isHandedOver(places.pixels(tile.grid, cell % side, cell / side), paint, none, {});
-        cells.push_back(crowded ? writer.writeCrowded(here) : writer.write(here, {}));
-        if (crowded)
-            tile.crowded.push_back(std::uint16_t(cell));
+    if (tile.paints == TilePaints::Any)
+        for (int row = 0; row < cellsPerTile; ++row)
+            for (int column = 0; column < cellsPerTile; ++column) {
+                const bool crowded = isHandedOver(places.pixels(tile.grid, column, row), paint, none, {});
+                cells.push_back(crowded ? writer.writeCrowded(here) : writer.write(here, {}));
+                if (crowded)
+                    put(tile.crowded, tile.grid, column, row);
+            }
+    if (tile.crowded == CellSet{}) {
+        tile.grid = oneCell;
+        cells = {writer.write(here, {})};
     }
-    tile.isFlat = tile.crowded.empty();
-    if (!tile.isFlat)
-        tile.texels = std::move(cells);
+    tile.firstCell = std::uint32_t(tile.texels.size());
+    tile.texels.insert(tile.texels.end(), cells.begin(), cells.end());
     return tile;
 }
 
@@ -379,9 +395,9 @@ Tile crowdedTile(std::span<const asset::Paint> paints) {
     Tile tile;
     const std::vector<PlanarPiece> none;
     const CellWriter writer(words, {}, none, tile.texels);
-    for (int cell = 0; cell < 1 << 2 * tile.grid.log2; ++cell)
-        tile.crowded.push_back(std::uint16_t(cell));
-    tile.texels.assign(tile.crowded.size(), writer.writeCrowded({dvec2(0.5), 0, 0}));
+    tile.grid = oneCell;
+    tile.crowded = allCells;
+    tile.texels = {writer.writeCrowded({dvec2(0.5), 0, 0})};
     return tile;
 }
 
@@ -396,7 +412,7 @@ Tile buildTile(const TileSource& source, const TilePlace& place, double margin,
     if (!start)
         return crowdedTile(source.asset.paints);
     if (coarse.numbers.empty())
-        return flatTile(source, places, start->paint);
+        return tileOfOnePaint(source, places, start->paint);
     const HandedOver isHandedOver(source, places, paints);
     Tile tile;
     const TileWords words = putPaints(source, places, paints, tile);
@@ -408,6 +424,9 @@ Tile buildTile(const TileSource& source, const TilePlace& place, double margin,
     const int cellCount = tile.grid.cellsPerSide();
     std::vector<Texel> cells;
     CellWriter writer(words, source.changes, pieces, tile.texels);
+    std::vector<bool> besideProgram;
+    for (const PlanarPiece& piece : pieces)
+        besideProgram.push_back(!words.isColor(piece.left) || !words.isColor(piece.right));
     Walk walk(pieces, source.hasLessDetail());
     Reference rowStart, last;
     for (int row = 0; row < cellCount; ++row)
@@ -426,13 +445,19 @@ Tile buildTile(const TileSource& source, const TilePlace& place, double margin,
                 isHandedOver(places.pixels(tile.grid, column, row), here.paint, pieces, lists.of(i));
             cells.push_back(crowded ? writer.writeCrowded(here) : writer.write(here, lists.of(i)));
             if (crowded)
-                tile.crowded.push_back(std::uint16_t(i));
+                put(tile.crowded, tile.grid, column, row);
+            if (!lists.of(i).empty())
+                put(tile.mixed, tile.grid, column, row);
+            if (!words.isColor(here.paint) ||
+                std::ranges::any_of(lists.of(i), [&](std::uint32_t piece) { return besideProgram[piece]; }))
+                put(tile.programmed, tile.grid, column, row);
             last = here;
             if (column == 0)
                 rowStart = here;
         }
     tile.pairs = writer.pairs();
     tile.isConsistent = walk.isConsistent();
+    tile.hasLongLists = meanLength(lists) > longInMean;
     tile.firstCell = std::uint32_t(tile.texels.size());
     tile.texels.insert(tile.texels.end(), cells.begin(), cells.end());
     return tile;

@@ -40,6 +40,17 @@ inline constexpr int maxTileLevel = 2 * int(asset::maxLevel);
 inline constexpr double tilePixels = 64;
 /// Cells a side; of tiles with long lists up to the second.
 inline constexpr unsigned tileCellsLog2 = 4, maxCellsLog2 = 6;
+/// Some of a tile's cells, as if it were a grid of the first size: rows, in which a column is a bit.
+inline constexpr int cellsPerTile = 1 << tileCellsLog2;
+using CellSet = std::array<std::uint16_t, cellsPerTile>;
+inline constexpr CellSet allCells = [] {
+    CellSet cells;
+    cells.fill(0xFFFF);
+    return cells;
+}();
+/// Pictures are drawn in blocks, upright squares of so many pixels a side: in a tile that is no more than 16
+/// / 2.83 cells from a block's middle (tileLevelFor() in atlas.hpp), so that it meets four tiles at most.
+inline constexpr int blockSide = 16;
 /// In the word with a tile's first cell.
 inline constexpr unsigned gridShift = 28;
 /// The cells of a tile, row by row.
@@ -85,8 +96,8 @@ inline constexpr double maxPlainChange = asset::minSteepChange * 2.83;
 inline constexpr double maxPlainError = 0.25 / 255;
 
 /// `texels` holds the layers and tables of plain paints, from `firstPair` the pairs of paints beside pieces,
-/// the lists of pieces and, from `firstCell`, the cells row by row; the first alone if the tile has one
-/// paint. A piece stands in the list of every cell that it matters to, so that a pixel reads its pieces one
+/// ascending, the lists of pieces and, from `firstCell`, the cells row by row; a tile of one paint has one
+/// cell. A piece stands in the list of every cell that it matters to, so that a pixel reads its pieces one
 /// after the other. Fields are packed from the lowest bit of the first word on.
 ///
 /// - Pair, two texels. First: the paints on the left and on the right as PaintWords. Second: left | right <<
@@ -98,9 +109,6 @@ inline constexpr double maxPlainError = 0.25 / 255;
 ///   lowLengthBits << firstTexelBits. With crowdedBit the list is empty: it would take more turns of loops
 ///   than a pixel may, or more texels than a tile.
 struct Tile {
-    bool isFlat = false;      ///< one paint, no cells
-    std::uint32_t paint = 0;  ///< of a flat tile
-    PaintWords words{};       ///< of that paint
     std::vector<asset::Texel> texels;
     std::uint32_t firstPair = 0, pairs = 0, firstCell = 0;
     CellGrid grid;
@@ -109,7 +117,9 @@ struct Tile {
     /// Of plain paints: what a picture unit changes a channel by, at most. In views in which that is steep
     /// programs are run.
     float steepness = 0;
-    std::vector<std::uint16_t> crowded;  ///< numbers of such cells, ascending
+    bool hasLongLists = false;  ///< so that shaders had better meet two pieces at a time
+    /// Cells with pieces, those where paints are more than a colour, and crowded ones.
+    CellSet mixed{}, programmed{}, crowded{};
     /// Whether each reference point has one paint. Where levels of detail have moved boundaries over each
     /// other some may have none, and a cell beside them would be wrong.
     bool isConsistent = true;

@@ -1,7 +1,8 @@
-// Tiles of one plain paint. Requires: place.glsl, plain_paint.glsl, output.glsl.
+// Blocks of one plain paint. Requires: place.glsl, plain_paint.glsl, output.glsl.
 
 out vec4 color;
 
 void main() {
-    color = outputColor(regionValue(plainColor(tileTexels.y, tilePoint(gl_FragCoord.xy))));
+    enterTile(gl_FragCoord.xy);
+    color = outputColor(regionValue(plainColor(tile.cells, tilePoint(gl_FragCoord.xy))));
 }

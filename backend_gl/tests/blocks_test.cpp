@@ -1,0 +1,100 @@
+// Pictures are drawn in upright blocks of pixels, wherever they and their tiles lie.
+#include <cmath>
+#include <random>
+#include <set>
+#include <utility>
+
+#include <glm/glm.hpp>
+
+#include <vtm/raster/evaluate.hpp>
+#include "backend_gl/tests/output_support.hpp"
+#include "backend_gl/tiles/atlas.hpp"
+#include "backend_gl/tiles/block_shape.hpp"
+
+namespace vtm::gl {
+namespace {
+
+using glm::dvec2;
+
+/// Blocks of any size that tiles allow, turned and slanted.
+glm::dmat2 anyPixels(std::mt19937& random) {
+    std::uniform_real_distribution<double> angle(0, 6.3), part(0.2, 1);
+    const double a = angle(random), b = angle(random), largest = tileMargin();
+    const dvec2 x = part(random) * largest * dvec2(std::cos(a), std::sin(a)),
+                y = part(random) * largest * dvec2(std::cos(b), std::sin(b));
+    const double radius = 0.5 * std::max(glm::length(x + y), glm::length(x - y));
+    return std::min(1.0, largest / radius) * glm::dmat2(x, y);
+}
+
+TEST(BlockShape, HoldsTheCellsOfAllPixelCentres) {
+    std::mt19937 random(1);
+    std::size_t found = 0, needed = 0;
+    for (int round = 0; round < 2000; ++round) {
+        const glm::dmat2 toTile = anyPixels(random);
+        const BlockShape shape(toTile);
+        std::uniform_real_distribution<double> offset(0, cellsPerTile);
+        const dvec2 middle = shape.half() + dvec2(offset(random), offset(random));
+        std::set<std::pair<int, int>> cells, centres;
+        shape.forEachRow(middle, [&](int row, std::uint32_t columns) {
+            for (int column = 0; column < cellsPerWindow; ++column)
+                if ((columns >> column & 1) != 0)
+                    cells.emplace(column, row);
+        });
+        for (int y = 0; y < blockSide; ++y)
+            for (int x = 0; x < blockSide; ++x) {
+                const dvec2 at =
+                    middle + double(cellsPerTile) * (toTile * (dvec2(x, y) + 0.5 - 0.5 * blockSide));
+                const std::pair<int, int> cell(int(std::floor(at.x)), int(std::floor(at.y)));
+                ASSERT_TRUE(cells.contains(cell)) << round;
+                centres.insert(cell);
+            }
+        found += cells.size();
+        needed += centres.size();
+    }
+    // Nor many others: a round of quarters of cells, and those between centres.
+    EXPECT_LT(double(found), 1.35 * double(needed));
+}
+
+TEST(ScannedBlocks, StandInRowsAsLongAsTheBoxes) {
+    const PixelBox box{{20, 3}, {20 + 5 * blockSide, 40}};  // touches six blocks
+    EXPECT_EQ(scannedPlace(0, box), glm::ivec2(0, 0));
+    EXPECT_EQ(scannedPlace(5, box), blockSide * glm::ivec2(5, 0));
+    EXPECT_EQ(scannedPlace(6, box), blockSide * glm::ivec2(0, 1));
+    EXPECT_EQ(scannedPlace(15, box), blockSide * glm::ivec2(3, 2));
+}
+
+/// Blocks that the picture's borders cut, also in their middles, are drawn, each pixel once.
+TEST_F(Gl, PicturesHaveAnySizeAndPlace) {
+    for (const Asset& asset : assets()) {
+        const Texture texture = renderer->upload(asset);
+        for (const auto& [width, height] :
+             {std::pair{1, 1}, {3, 17}, {8, 8}, {9, 40}, {16, 7}, {23, 24}, {33, 15}, {40, 49}, {100, 5}})
+            for (const double angle : {0.0, 0.7, 2.6}) {
+                const View view = turnedView(width, height, {32, 32}, 0.7, angle);
+                const image::Raster expected = renderer->render(texture, view);
+                EXPECT_LE(worst(expected, asset::evaluate(asset, view), identity), 2 * byteStep)
+                    << width << ' ' << height;
+                for (const int offset : {0, 5, 11}) {
+                    const UserFramebuffer target(GL_RGBA16F, width + offset, height + offset,
+                                                 {0.5f, 0, 0.25f, 0.75f});
+                    Output output;
+                    output.write = Output::Write::Over;
+                    output.x = output.y = offset;
+                    renderer->draw(texture, view, output);
+                    const image::Raster drawn = target.floats();
+                    for (int y = 0; y < height; ++y)
+                        for (int x = 0; x < width; ++x) {
+                            const Color c = pixelOf(expected, x, y),
+                                        got = pixelOf(drawn, x + offset, y + offset),
+                                        ground{0.5, 0, 0.25, 0.75};
+                            for (std::size_t i = 0; i < 4; ++i)
+                                ASSERT_NEAR(got[i], c[i] + (1 - c[3]) * ground[i], 0x1p-9)
+                                    << width << ' ' << height << ' ' << offset;
+                        }
+                }
+            }
+    }
+}
+
+}  // namespace
+}  // namespace vtm::gl

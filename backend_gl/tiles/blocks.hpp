@@ -1,0 +1,66 @@
+/// \file
+/// The tiles of a view in; out come the blocks, upright squares of pixels, by which it is drawn, sorted by
+/// what has to be computed in them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include <vtm/asset/asset.hpp>
+#include "backend_gl/tiles/atlas.hpp"
+#include "backend_gl/tiles/tile_raster.hpp"
+
+namespace vtm::gl {
+
+/// Of flat_vertex.glsl.
+struct FlatVertex {
+    float position[2];
+    float color[4];
+};
+
+/// Of block_vertex.glsl.
+struct BlockVertex {
+    float middle[2];
+    float corner[4];
+    std::array<std::uint32_t, 4> texels, cells;
+    asset::Texel more;
+};
+
+/// What is computed in blocks that have pieces, and in those that have none but whose paint is a program.
+enum class BlockKind : std::uint8_t {
+    TwoColors,      ///< two solid colours
+    TwoColorsLong,  ///< and long lists of pieces
+    Solid,
+    SolidLong,
+    Plain,  ///< plain paints, some of them solid
+    OnePlain,
+    Programs
+};
+inline constexpr std::size_t blockKindCount = 7;
+
+/// Blocks that one program draws.
+struct BlockGroup {
+    BlockKind kind;
+    std::size_t points;  ///< of plain paints: which of rampPoints
+    bool crowded;        ///< some of their cells are
+    std::vector<BlockVertex> vertices;
+};
+
+struct Blocks {
+    std::vector<FlatVertex> flat;  ///< two triangles for each rectangle of one colour
+    std::vector<BlockGroup> groups;
+    std::vector<glm::ivec2> crowded;  ///< the first pixels of such blocks, row by row
+    PixelBox drawn;                   ///< holds what may not be transparent
+};
+
+/// `tiles`: of the raster's region. `paints`: from the map's first on.
+Blocks blocksOf(const TileRaster& raster, const Atlas& atlas, std::span<const asset::Paint> paints,
+                const std::vector<const Atlas::Placed*>& tiles);
+/// All of the map's pixels from the scanner, as those of crowded cells.
+Blocks crowdedBlocks(const TileRaster& raster, Atlas& atlas);
+
+}  // namespace vtm::gl
