@@ -118,7 +118,6 @@ public:
     Blocks sorted() {
         forEachBlock(
             raster_.box(), [&](ivec2 corner) { add(blockAt(corner)); }, [&] { runs_.end(); });
-        std::erase_if(blocks_.groups, [](const BlockGroup& group) { return group.vertices.empty(); });
         return std::move(blocks_);
     }
 
@@ -176,28 +175,32 @@ private:
     void addMixed(const Block& block, const MetTile& some, bool crowded) {
         touch(block);
         BlockVertex vertex = vertexOf(block, some);
-        const auto [kind, points] = kindOf(block, vertex.more, crowded);
+        BlockWork work = block.any(&MetTile::programmed) ? workOfPrograms(block, true)
+                         : crowded                       ? BlockWork()
+                                                         : workOfColors(block);
+        work.crowded = crowded;
         if (crowded)
             putScanned(blocks_, vertex, block.corner, raster_.box());
-        group(kind, points, crowded).push_back(vertex);
+        else if (work.hasTwoColors)
+            vertex.more = *twoColors(block);
+        group(work).push_back(vertex);
     }
 
     void addOfOneProgram(const Block& block, const MetTile& some) {
         touch(block);
-        BlockVertex vertex = vertexOf(block, some);
-        const std::optional<std::size_t> points = pointsOf(block, false);
-        bool isPlain = true;
+        const BlockVertex vertex = vertexOf(block, some);
+        BlockVertex onePaint = vertex;
+        BlockWork work = workOfPrograms(block, false);
+        bool isPlain = work.kind == BlockWork::Kind::Plain;
         for (std::size_t i = 0; i < 4; ++i) {
+            // The paint may have one colour in one tile and change in the next.
             const asset::Texel& cell = cellOf(block.tiles[i].tile != nullptr ? block.tiles[i] : some);
             isPlain = isPlain && cell[2] == plainTag;
-            if (isPlain)
-                vertex.cells[i] = cell[1];
+            onePaint.cells[i] = cell[1];
         }
-        if (points && isPlain)
-            return group(BlockKind::OnePlain, *points, false).push_back(vertex);
-        // The paint has one colour in one tile and changes in the next.
-        group(points ? BlockKind::Plain : BlockKind::Programs, points.value_or(0), false)
-            .push_back(vertexOf(block, some));
+        if (isPlain)
+            work.kind = BlockWork::Kind::OnePlain;
+        group(work).push_back(isPlain ? onePaint : vertex);
     }
 
     static const MetTile* someTile(const Block& block) {
@@ -222,34 +225,26 @@ private:
         blocks_.drawn = blocks_.drawn.joined(pixelsOf(block.corner, raster_.box()));
     }
 
-    /// `pair`: gets that of two colours.
-    std::pair<BlockKind, std::size_t> kindOf(const Block& block, asset::Texel& pair, bool crowded) const {
-        if (block.any(&MetTile::programmed)) {
-            const std::optional<std::size_t> points = pointsOf(block, true);
-            return points ? std::pair(BlockKind::Plain, *points)
-                          : std::pair(BlockKind::Programs, std::size_t{0});
-        }
-        const bool isLong = std::ranges::any_of(
+    BlockWork workOfColors(const Block& block) const {
+        BlockWork work;
+        work.hasTwoColors = twoColors(block).has_value();
+        work.isLong = std::ranges::any_of(
             block.tiles, [](const MetTile& met) { return met.mixed && met.tile->hasLongLists; });
-        if (const std::optional<asset::Texel> two = twoColors(block); two && !crowded) {
-            pair = *two;
-            return {isLong ? BlockKind::TwoColorsLong : BlockKind::TwoColors, 0};
-        }
-        return {isLong && !crowded ? BlockKind::SolidLong : BlockKind::Solid, 0};
+        return work;
     }
 
-    /// Of plain paints, which of rampPoints; nothing where programs are to be run. `cut`: by pieces, so that
-    /// it matters whether paints are steep.
-    std::optional<std::size_t> pointsOf(const Block& block, bool cut) const {
-        std::size_t points = 0;
+    /// `cut`: by pieces, so that it matters whether paints are steep.
+    BlockWork workOfPrograms(const Block& block, bool cut) const {
+        BlockWork work{.kind = BlockWork::Kind::Plain};
         for (const MetTile& met : block.tiles) {
             if (!met.programmed)
                 continue;
             if (met.tile->paints == TilePaints::Any || (cut && met.tile->steepness > raster_.minSteepness()))
-                return std::nullopt;
-            points = std::max(points, std::size_t(met.tile->paints) - std::size_t(TilePaints::Plain));
+                return {.kind = BlockWork::Kind::Programs};
+            work.points = std::max(
+                work.points, std::uint8_t(std::uint8_t(met.tile->paints) - std::uint8_t(TilePaints::Plain)));
         }
-        return points;
+        return work;
     }
 
     std::optional<asset::Texel> twoColors(const Block& block) const {
@@ -278,13 +273,10 @@ private:
         return vertex;
     }
 
-    std::vector<BlockVertex>& group(BlockKind kind, std::size_t points, bool crowded) {
-        const auto found = std::ranges::find_if(blocks_.groups, [&](const BlockGroup& group) {
-            return group.kind == kind && group.points == points && group.crowded == crowded;
-        });
-        if (found != blocks_.groups.end())
-            return found->vertices;
-        return blocks_.groups.emplace_back(BlockGroup{kind, points, crowded, {}}).vertices;
+    std::vector<BlockVertex>& group(const BlockWork& work) {
+        const auto found = std::ranges::find(blocks_.groups, work, &BlockGroup::work);
+        return (found != blocks_.groups.end() ? *found : blocks_.groups.emplace_back(BlockGroup{work, {}}))
+            .vertices;
     }
 
     const TileRaster& raster_;
@@ -327,7 +319,7 @@ Blocks crowdedBlocks(const TileRaster& raster, Atlas& atlas) {
             vertices.push_back(vertex);
         },
         [] {});
-    blocks.groups.push_back({BlockKind::Solid, 0, true, std::move(vertices)});
+    blocks.groups.push_back({{.crowded = true}, std::move(vertices)});
     return blocks;
 }
 

@@ -30,23 +30,25 @@ struct BlockVertex {
     asset::Texel more;
 };
 
-/// What is computed in blocks that have pieces, and in those that have none but whose paint is a program.
-enum class BlockKind : std::uint8_t {
-    TwoColors,      ///< two solid colours
-    TwoColorsLong,  ///< and long lists of pieces
-    Solid,
-    SolidLong,
-    Plain,  ///< plain paints, some of them solid
-    OnePlain,
-    Programs
+/// What has to be computed in a block.
+struct BlockWork {
+    enum class Kind : std::uint8_t {
+        Solid,     ///< pieces between solid colours
+        Plain,     ///< pieces between plain paints, some of which may be solid
+        OnePlain,  ///< no pieces, a plain paint
+        Programs   ///< whatever there is
+    };
+    Kind kind = Kind::Solid;
+    bool crowded = false;                       ///< some cells' pixels are scanned
+    bool hasTwoColors = false, isLong = false;  ///< Solid: no others; many pieces in cells
+    std::uint8_t points = 0;                    ///< which of rampPoints
+
+    bool operator==(const BlockWork&) const = default;
 };
-inline constexpr std::size_t blockKindCount = 7;
 
 /// Blocks that one program draws.
 struct BlockGroup {
-    BlockKind kind;
-    std::size_t points;  ///< of plain paints: which of rampPoints
-    bool crowded;        ///< some of their cells are
+    BlockWork work;
     std::vector<BlockVertex> vertices;
 };
 

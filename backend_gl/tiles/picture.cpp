@@ -108,24 +108,21 @@ PictureBuffers::PictureBuffers()
 
 namespace {
 
-const Program& programOf(Programs& programs, const UploadedAsset& asset, const BlockGroup& group,
+const Program& programOf(Programs& programs, const UploadedAsset& asset, const BlockWork& work,
                          Finish finish) {
-    const bool isBent = rampPoints[group.points].count > 1;
-    switch (group.kind) {
-        case BlockKind::Programs:
-            return programs.tile(asset.features, asset.materialSet, finish, group.crowded);
-        case BlockKind::Plain:
-            return programs.plainTile(asset.features, isBent, finish, group.crowded);
-        case BlockKind::OnePlain:
+    using Kind = BlockWork::Kind;
+    const bool isBent = rampPoints[work.points].count > 1;
+    switch (work.kind) {
+        case Kind::Programs:
+            return programs.tile(asset.features, asset.materialSet, finish, work.crowded);
+        case Kind::Plain:
+            return programs.plainTile(asset.features, isBent, finish, work.crowded);
+        case Kind::OnePlain:
             return programs.plainFlat(asset.features, isBent, finish);
         default:
-            break;
+            return work.crowded ? programs.tile({}, 0, finish, true)
+                                : programs.solidTile(work.hasTwoColors, work.isLong, finish);
     }
-    if (group.crowded)
-        return programs.tile({}, 0, finish, true);
-    return programs.solidTile(group.kind == BlockKind::TwoColors || group.kind == BlockKind::TwoColorsLong,
-                              group.kind == BlockKind::SolidLong || group.kind == BlockKind::TwoColorsLong,
-                              finish);
 }
 
 }  // namespace
@@ -150,9 +147,9 @@ PixelBox drawMap(Programs& programs, PictureBuffers& buffers, const UploadedAsse
         draw(GL_TRIANGLES, buffers.flatArray, buffers.flat, blocks.flat);
     }
     for (const BlockGroup& group : blocks.groups) {
-        const Program& program = programOf(programs, asset, group, finish);
+        const Program& program = programOf(programs, asset, group.work, finish);
         use(program, asset.sections, atlas.firstPaint(), raster);
-        glUniform1ui(program.uniform("rampPoints"), rampPoints[group.points].count);
+        glUniform1ui(program.uniform("rampPoints"), rampPoints[group.work.points].count);
         glUniform1i(program.uniform("markOverruns"), markOverruns);
         draw(GL_POINTS, buffers.blockArray, buffers.block, group.vertices);
     }
