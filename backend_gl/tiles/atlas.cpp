@@ -319,7 +319,8 @@ Atlas::Placed Atlas::place(Tile tile) {
                   .grid = tile.grid,
                   .hasLongLists = tile.hasLongLists,
                   .mixed = tile.mixed,
-                  .programmed = tile.programmed,
+                  .plain = tile.plain,
+                  .run = tile.run,
                   .crowded = tile.crowded,
                   .used = picture_};
     texels_.insert(texels_.end(), tile.texels.begin(), tile.texels.end());

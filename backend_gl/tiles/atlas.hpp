@@ -101,7 +101,7 @@ public:
         std::uint32_t firstTexel = 0, firstPair = 0, pairs = 0, firstCell = 0, texelCount = 0;
         CellGrid grid;
         bool hasLongLists = false;
-        CellSet mixed{}, programmed{}, crowded{};
+        CellSet mixed{}, plain{}, run{}, crowded{};
         std::uint64_t used = 0;  ///< by which picture, the last time
     };
     /// Squares of a level: [min, max), row by row.

@@ -58,7 +58,7 @@ void putScanned(Blocks& blocks, BlockVertex& vertex, ivec2 corner, const PixelBo
 /// What a block meets of a tile.
 struct MetTile {
     const Placed* tile = nullptr;  ///< null: nothing
-    bool mixed = false, programmed = false, crowded = false;
+    bool mixed = false, plain = false, run = false, crowded = false;
     unsigned column = 0, row = 0;  ///< one of the cells
 };
 
@@ -148,9 +148,10 @@ private:
 
     static void meet(MetTile& met, const Placed& tile, unsigned row, std::uint16_t columns) {
         if (met.tile == nullptr)
-            met = {&tile, false, false, false, unsigned(std::countr_zero(columns)), row};
+            met = {&tile, false, false, false, false, unsigned(std::countr_zero(columns)), row};
         met.mixed = met.mixed || (tile.mixed[row] & columns) != 0;
-        met.programmed = met.programmed || (tile.programmed[row] & columns) != 0;
+        met.plain = met.plain || (tile.plain[row] & columns) != 0;
+        met.run = met.run || (tile.run[row] & columns) != 0;
         met.crowded = met.crowded || (tile.crowded[row] & columns) != 0;
     }
 
@@ -166,7 +167,7 @@ private:
         const std::uint32_t paint = cell[0] & 0xFFFF;
         if (paint == 0)
             return;
-        if (block.any(&MetTile::programmed))
+        if (hasPrograms(block))
             return addOfOneProgram(block, *some);
         touch(block);
         runs_.add(block.corner, colorOf(paint, {cell[1], cell[2]}));
@@ -175,9 +176,9 @@ private:
     void addMixed(const Block& block, const MetTile& some, bool crowded) {
         touch(block);
         BlockVertex vertex = vertexOf(block, some);
-        BlockWork work = block.any(&MetTile::programmed) ? workOfPrograms(block, true)
-                         : crowded                       ? BlockWork()
-                                                         : workOfColors(block);
+        BlockWork work = hasPrograms(block) ? workOfPrograms(block, true)
+                         : crowded          ? BlockWork()
+                                            : workOfColors(block);
         work.crowded = crowded;
         if (crowded)
             putScanned(blocks_, vertex, block.corner, raster_.box());
@@ -225,6 +226,10 @@ private:
         blocks_.drawn = blocks_.drawn.joined(pixelsOf(block.corner, raster_.box()));
     }
 
+    static bool hasPrograms(const Block& block) {
+        return block.any(&MetTile::plain) || block.any(&MetTile::run);
+    }
+
     BlockWork workOfColors(const Block& block) const {
         BlockWork work;
         work.hasTwoColors = twoColors(block).has_value();
@@ -237,10 +242,10 @@ private:
     BlockWork workOfPrograms(const Block& block, bool cut) const {
         BlockWork work{.kind = BlockWork::Kind::Plain};
         for (const MetTile& met : block.tiles) {
-            if (!met.programmed)
-                continue;
-            if (met.tile->paints == TilePaints::Any || (cut && met.tile->steepness > raster_.minSteepness()))
+            if (met.run || (met.plain && cut && met.tile->steepness > raster_.minSteepness()))
                 return {.kind = BlockWork::Kind::Programs};
+            if (!met.plain)
+                continue;
             work.points = std::max(
                 work.points, std::uint8_t(std::uint8_t(met.tile->paints) - std::uint8_t(TilePaints::Plain)));
         }

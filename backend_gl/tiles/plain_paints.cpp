@@ -213,9 +213,10 @@ PaintWords TileWords::of(std::uint32_t paint) const {
     return words != nullptr ? *words : solidWords(paints_[paint]);
 }
 
-bool TileWords::isColor(std::uint32_t paint) const {
-    const PaintWords* const words = put(paint);
-    return words != nullptr ? (*words)[1] != plainTag : !asset::isProgram(paints_[paint]);
+PaintKind TileWords::kindOf(std::uint32_t paint) const {
+    if (const PaintWords* const words = put(paint))
+        return (*words)[1] == plainTag ? PaintKind::Plain : PaintKind::Color;
+    return asset::isProgram(paints_[paint]) ? PaintKind::Program : PaintKind::Color;
 }
 
 }  // namespace vtm::gl

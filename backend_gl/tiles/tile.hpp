@@ -76,10 +76,10 @@ inline constexpr std::uint32_t crowdedBit = 1u << 31;
 /// list's first texel and, above, the rest of the length.
 inline constexpr unsigned lengthShift = 20, lowLengthBits = 11, firstTexelBits = 23;
 
-/// Those near a tile, as they are there (backend_gl/tiles/plain_paints.hpp): nothing but colours; plain ones
-/// that change little over a pixel, whose means over it are those of one, two or four points; or others among
-/// them.
-enum class TilePaints : std::uint8_t { Solid, Plain, PlainOfTwo, PlainOfFour, Any };
+/// Those near a tile, as they are there (backend_gl/tiles/plain_paints.hpp), but for programs that have to be
+/// run: nothing but colours, or plain ones that change little over a pixel, whose means over it are those of
+/// one, two or four points.
+enum class TilePaints : std::uint8_t { Solid, Plain, PlainOfTwo, PlainOfFour };
 /// By TilePaints, from Plain on: points, and how far their mean may be off, by the difference between slopes
 /// times the diagonal of a pixel. That is where a ramp is bent in a pixel's middle or between two points,
 /// which are evenly apart and have the pixel's variance.
@@ -114,12 +114,12 @@ struct Tile {
     CellGrid grid;
     TilePaints paints = TilePaints::Solid;
     bool programs = false;  ///< whether paints are programs, whatever they are there
-    /// Of plain paints: what a picture unit changes a channel by, at most. In views in which that is steep
-    /// programs are run.
+    /// Of plain paints: what a picture unit changes a channel by, at most; twice that beside programs that
+    /// have to be run. In views in which that is steep all are run.
     float steepness = 0;
     bool hasLongLists = false;  ///< so that shaders had better meet two pieces at a time
-    /// Cells with pieces, those where paints are more than a colour, and crowded ones.
-    CellSet mixed{}, programmed{}, crowded{};
+    /// Cells with pieces; where some paint is plain, but no colour; where one has to be run; crowded ones.
+    CellSet mixed{}, plain{}, run{}, crowded{};
     /// Whether each reference point has one paint. Where levels of detail have moved boundaries over each
     /// other some may have none, and a cell beside them would be wrong.
     bool isConsistent = true;
