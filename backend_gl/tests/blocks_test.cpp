@@ -1,11 +1,13 @@
 // Pictures are drawn in upright blocks of pixels, wherever they and their tiles lie.
 #include <cmath>
+#include <memory>
 #include <random>
 #include <set>
 #include <utility>
 
 #include <glm/glm.hpp>
 
+#include <vtm/compiler/compile.hpp>
 #include <vtm/raster/evaluate.hpp>
 #include "backend_gl/tests/output_support.hpp"
 #include "backend_gl/tiles/atlas.hpp"
@@ -94,6 +96,40 @@ TEST_F(Gl, PicturesHaveAnySizeAndPlace) {
                 }
             }
     }
+}
+
+/// Small triangles all over the picture, of so many colours.
+Asset confetti(int triangles, int colors) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> place(-2, 66), offset(-3, 3);
+    scene::Scene scene;
+    scene.width = scene.height = 64;
+    for (int i = 0; i < triangles; ++i) {
+        const scene::Point middle{place(random), place(random)};
+        const auto corner = [&] { return middle + scene::Point(offset(random), offset(random)); };
+        scene::Item item;
+        item.path = std::make_shared<scene::Path>(scene::Path{
+            scene::MoveTo{corner()}, scene::LineTo{corner()}, scene::LineTo{corner()}, scene::Close{}});
+        item.paint = scene::Color{float(i % colors) / float(colors), 0.5f, 1, 1};
+        scene.root.children.push_back({item});
+    }
+    return compiler::compile(scene).asset;
+}
+
+/// Where cells have many pieces two of them are met at a time: even and odd numbers, of two colours and of
+/// several.
+TEST_F(Gl, LongListsAreExact) {
+    for (const int triangles : {30, 300, 900})
+        for (const int colors : {1, 7}) {
+            const Asset asset = confetti(triangles, colors);
+            const Texture texture = renderer->upload(asset);
+            for (const double angle : {0.0, 0.5, 1.9}) {
+                const View view = turnedView(70, 61, {32, 32}, 0.9, angle);
+                EXPECT_LE(worst(renderer->render(texture, view), asset::evaluate(asset, view), identity),
+                          2 * byteStep)
+                    << triangles << ' ' << colors;
+            }
+        }
 }
 
 }  // namespace

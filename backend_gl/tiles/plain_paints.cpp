@@ -215,8 +215,8 @@ PaintWords TileWords::of(std::uint32_t paint) const {
 
 PaintKind TileWords::kindOf(std::uint32_t paint) const {
     if (const PaintWords* const words = put(paint))
-        return (*words)[1] == plainTag ? PaintKind::Plain : PaintKind::Color;
-    return asset::isProgram(paints_[paint]) ? PaintKind::Program : PaintKind::Color;
+        return (*words)[1] == plainTag ? PaintKind::Plain : PaintKind::Solid;
+    return asset::isProgram(paints_[paint]) ? PaintKind::Program : PaintKind::Solid;
 }
 
 }  // namespace vtm::gl

@@ -70,7 +70,7 @@ PaintWords append(const PlainPaint& paint, std::vector<asset::Texel>& texels);
 PaintWords solidWords(const asset::Paint& paint);
 
 /// What a paint is near a tile.
-enum class PaintKind : std::uint8_t { Color, Plain, Program };
+enum class PaintKind : std::uint8_t { Solid, Plain, Program };
 
 /// The paints of a tile as words: solid ones, and those that were put there.
 class TileWords {

@@ -434,7 +434,7 @@ Tile buildTile(const TileSource& source, const TilePlace& place, double margin,
     std::vector<Texel> cells;
     CellWriter writer(words, source.changes, pieces, tile.texels);
     const auto markPaint = [&](std::uint32_t paint, int column, int row) {
-        if (const PaintKind kind = words.kindOf(paint); kind != PaintKind::Color)
+        if (const PaintKind kind = words.kindOf(paint); kind != PaintKind::Solid)
             put(kind == PaintKind::Plain ? tile.plain : tile.run, tile.grid, column, row);
     };
     Walk walk(pieces, source.hasLessDetail());
