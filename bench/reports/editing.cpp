@@ -82,7 +82,7 @@ void move(Item& item, const Item& from, double x, double y) {
 struct Cost {
     double compiling = 0;  ///< the scene anew, in the same turn
     double session = 0;    ///< the session's update
-    double scanner = 0;    ///< the scanner's
+    double scanner = 0;    ///< the scanner's, or the evaluator's
     double boxes = 0;      ///< drawing what may look different
     std::size_t blocks = 0;
 
@@ -166,12 +166,11 @@ public:
 
 private:
     asset::ByteTarget target() { return {bytes_.data(), rowBytes_}; }
-    /// Evaluators are made anew.
     void bringToSession() {
         if (scanner_)
             scanner_->update(session.result().asset, session.difference());
         else
-            evaluator_.emplace(session.result().asset);
+            evaluator_->update(session.result().asset, session.difference());
     }
     void drawChanges() {
         for (const asset::PixelBox& box : asset::changedPixels(view, session.difference()))

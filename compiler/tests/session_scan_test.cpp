@@ -69,28 +69,38 @@ private:
     Bytes bytes_;
 };
 
-/// The same of pictures with filters, by evaluators.
+/// The same of pictures with filters, by an evaluator.
 class ShownByEvaluator {
 public:
-    ShownByEvaluator(const Session& session, const asset::View& view) : view_(view), bytes_(view) {
-        asset::Evaluator(session.result().asset).draw(view_, bytes_.target());
+    ShownByEvaluator(const Session& session, const asset::View& view)
+        : view_(view), evaluator_(session.result().asset), bytes_(view) {
+        evaluator_.draw(view_, bytes_.target());
     }
 
     /// Returns how many pixels were drawn.
     std::size_t update(const Session& session) {
-        const asset::Evaluator evaluator(session.result().asset);
-        return drawChanges(evaluator, session, view_, bytes_);
+        evaluator_.update(session.result().asset, session.difference());
+        return drawChanges(evaluator_, session, view_, bytes_);
     }
 
     void expectFresh(const Session& session) const {
-        Bytes fresh(view_);
+        Bytes fresh(view_), whole(view_);
         asset::Evaluator(session.result().asset).draw(view_, fresh.target());
+        evaluator_.draw(view_, whole.target());
+        EXPECT_LE(largestDifference(whole, fresh), 1);
         // Of three blurs after each other, each within 1/255, what is drawn may end elsewhere.
+        EXPECT_LE(largestDifference(bytes_, fresh), 2);
+    }
+    void expectFresh(const scene::Scene& scene) const {
+        Bytes fresh(view_);
+        const asset::Asset asset = compile(scene).asset;
+        asset::Evaluator(asset).draw(view_, fresh.target());
         EXPECT_LE(largestDifference(bytes_, fresh), 2);
     }
 
 private:
     asset::View view_;
+    asset::Evaluator evaluator_;
     Bytes bytes_;
 };
 

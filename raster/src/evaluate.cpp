@@ -399,6 +399,10 @@ struct Evaluator::Impl {
         if (!asset.filters.empty())
             scanner.emplace(paints);
     }
+    Impl(const AssetView& asset, Impl&& last, const Difference& difference) : Impl(asset) {
+        if (scanner && last.scanner)
+            scanner.emplace(paints, std::move(*last.scanner), difference.maps);
+    }
     Canvas draw(const View& view, const MaterialFunction& materials) const {
         return drawn(paints, view, materials, finerLevels(paints.asset(), view),
                      scanner ? &*scanner : nullptr);
@@ -412,6 +416,10 @@ Evaluator::Evaluator(const AssetView& asset) : impl_(std::make_unique<Impl>(asse
 Evaluator::~Evaluator() = default;
 Evaluator::Evaluator(Evaluator&&) noexcept = default;
 Evaluator& Evaluator::operator=(Evaluator&&) noexcept = default;
+
+void Evaluator::update(const AssetView& asset, const Difference& difference) {
+    impl_ = std::make_unique<Impl>(asset, std::move(*impl_), difference);
+}
 
 Raster Evaluator::draw(const View& view, const MaterialFunction& materials) const {
     return impl_->draw(view, materials).toRaster();

@@ -3,6 +3,7 @@
 /// what changed, and only what looks different is drawn again.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <vtm/asset/asset.hpp>
@@ -14,6 +15,13 @@ struct Area {
     double left = 0, top = 0, right = 0, bottom = 0;
 };
 
+/// What a map is of the asset before.
+struct MapChange {
+    static constexpr std::uint32_t isNew = 0xFFFFFFFF;
+    std::uint32_t before = isNew;  ///< its number there; no two maps have the same
+    std::vector<Cell> squares;     ///< whose subtrees changed; as Difference::squares
+};
+
 /// Between two assets of one size that follow each other (compiler::Session::difference()).
 struct Difference {
     bool everything = true;  ///< nothing can be taken over; else what follows holds of records
@@ -23,6 +31,9 @@ struct Difference {
     std::vector<Cell> squares;
     bool paints = true;  ///< paints or their data changed
     bool images = true;  ///< images or materials changed
+    /// Of pictures with filters, where `everything` is set: by map of the next asset, what can be taken over
+    /// all the same (asset::Evaluator::update). Empty: nothing.
+    std::vector<MapChange> maps;
     /// What may look different, also if nothing can be taken over. Nothing does outside; boxes may overlap.
     std::vector<Area> areas;
     int pixelsAround = 0;  ///< so many pixels around them may look different too: filters resample

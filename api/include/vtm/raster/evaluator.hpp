@@ -7,6 +7,7 @@
 #include <span>
 
 #include <vtm/asset/asset.hpp>
+#include <vtm/asset/difference.hpp>
 #include <vtm/raster/evaluate.hpp>
 #include <vtm/raster/scan.hpp>
 #include <vtm/raster/view.hpp>
@@ -16,7 +17,7 @@
 namespace vtm::asset {
 
 /// Draws what evaluate() draws, and keeps what drawings share: paints, and of pictures with filters the
-/// boundaries of their maps. Safe to use from several threads at once.
+/// boundaries of their maps. Safe to use from several threads at once, except for update().
 class Evaluator {
 public:
     /// `asset` must be valid (asset::validate) and outlive it.
@@ -24,6 +25,11 @@ public:
     ~Evaluator();
     Evaluator(Evaluator&&) noexcept;
     Evaluator& operator=(Evaluator&&) noexcept;
+
+    /// Goes on to the next asset, which must outlive it, `difference` being what changed from the last one
+    /// that was given; that may be gone. Boundaries of maps that did not change are not made anew. If it
+    /// throws, nothing may be drawn before an update succeeds without `difference.maps`.
+    void update(const AssetView& asset, const Difference& difference);
 
     /// Throws std::length_error if the view exceeds the limits in vtm/raster/view.hpp, as all below.
     image::Raster draw(const View& view, const MaterialFunction& materials = {}) const;
