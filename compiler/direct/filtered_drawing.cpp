@@ -80,12 +80,15 @@ std::unique_ptr<const FilteredDrawing> FilteredDrawing::make(const scene::Scene&
     const auto compiled = [](const scene::Scene& part, const Excerpt& of, const Options& how) {
         return compileExcerpt(part, of, how);
     };
-    const FilterPlan plan = planFiltered(scene, excerpt, options, compiled);
+    FilterPlan plan = planFiltered(scene, excerpt, options, compiled);
     std::vector<PartPicture> parts;
     for (const PlainPart& part : plan.parts)
         parts.push_back(pictureOf(part, excerpt, options));
+    Result last;
     const Result commands =
-        joinParts(plan, excerpt, [&](std::size_t part) { return standIn(parts[part].excerpt); });
+        joinParts(std::move(plan.commands), plan.parts, excerpt, [&](std::size_t part) -> const Result& {
+            return last = standIn(parts[part].excerpt);
+        });
     PartDrawer drawer(std::move(parts), commands);
     asset::CommandPicture picture(commands.asset, view, drawer);
     if (!drawer.isComplete())

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string>
 
 #include <vtm/raster/evaluate.hpp>
@@ -368,15 +369,16 @@ private:
 /// Puts the pictures of parts where commands draw them.
 class Joiner {
 public:
-    Joiner(const FilterPlan& plan, const Excerpt& excerpt)
-        : plan_(plan), longerSide_(std::max(excerpt.width, excerpt.height)), result_(plan.commands) {
-        result_.asset.commands.clear();
-    }
+    Joiner(Result commands, std::span<const PlainPart> parts, const Excerpt& excerpt)
+        : commands_(std::exchange(commands.asset.commands, {})),
+          parts_(parts),
+          longerSide_(std::max(excerpt.width, excerpt.height)),
+          result_(std::move(commands)) {}
 
-    Result run(const std::function<Result(std::size_t)>& takePart) {
-        for (const Command& command : plan_.commands.asset.commands)
+    Result run(const std::function<const Result&(std::size_t)>& pictureOf) {
+        for (const Command& command : commands_)
             if (command.kind == Command::Kind::DrawMap)
-                add(takePart(command.map), plan_.parts[command.map].frame.min);
+                add(pictureOf(command.map), parts_[command.map].frame.min);
             else
                 result_.asset.commands.push_back(command);
         checkCommands(result_.asset.commands.size());
@@ -384,7 +386,7 @@ public:
     }
 
 private:
-    void add(Result drawn, scene::Point by) {
+    void add(const Result& drawn, scene::Point by) {
         const double longer = std::max(drawn.asset.width, drawn.asset.height);
         result_.provenError = std::max(result_.provenError, drawn.provenError * longer / longerSide_);
         result_.asset.finestPixel = std::max(*result_.asset.finestPixel, drawn.asset.finestPixel.value_or(0));
@@ -392,10 +394,10 @@ private:
         result_.sampledStrokes += drawn.sampledStrokes;
         for (const UnprovenSquare& square : drawn.unproven)
             result_.unproven.push_back({square.x + by.x, square.y + by.y, square.side});
-        for (std::string& warning : drawn.warnings)
-            warn(std::move(warning), result_);
+        for (const std::string& warning : drawn.warnings)
+            warn(warning, result_);
         addTimes(drawn.stages);
-        appendAsset(std::move(drawn.asset), by, result_.asset);
+        appendAsset(drawn.asset, by, result_.asset);
     }
 
     void addTimes(const std::vector<StageTime>& stages) {
@@ -406,7 +408,8 @@ private:
                 result_.stages[i].milliseconds += stages[i].milliseconds;
     }
 
-    const FilterPlan& plan_;
+    const std::vector<Command> commands_;
+    const std::span<const PlainPart> parts_;
     const double longerSide_;  ///< of the excerpt
     Result result_;
 };
@@ -433,19 +436,20 @@ PartPicture pictureOf(const PlainPart& part, const Excerpt& excerpt, const Optio
     return picture;
 }
 
-Result joinParts(const FilterPlan& plan, const Excerpt& excerpt,
-                 const std::function<Result(std::size_t)>& take) {
-    return Joiner(plan, excerpt).run(take);
+Result joinParts(Result commands, std::span<const PlainPart> parts, const Excerpt& excerpt,
+                 const std::function<const Result&(std::size_t)>& pictureOf) {
+    return Joiner(std::move(commands), parts, excerpt).run(pictureOf);
 }
 
 Result compileFiltered(const scene::Scene& scene, const Excerpt& excerpt, const Options& options,
                        const CompilePlain& compilePlain) {
     if (options.filterPixels > 0)
         return Planner(excerpt, options, compilePlain).runBaked(scene.root);
-    const FilterPlan plan = planFiltered(scene, excerpt, options, compilePlain);
-    return joinParts(plan, excerpt, [&](std::size_t part) {
+    FilterPlan plan = planFiltered(scene, excerpt, options, compilePlain);
+    Result last;
+    return joinParts(std::move(plan.commands), plan.parts, excerpt, [&](std::size_t part) -> const Result& {
         const PartPicture picture = pictureOf(plan.parts[part], excerpt, options);
-        return compilePlain(picture.scene, picture.excerpt, picture.options);
+        return last = compilePlain(picture.scene, picture.excerpt, picture.options);
     });
 }
 

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include <vtm/compiler/compile.hpp>
@@ -51,8 +52,8 @@ struct PartPicture {
     Options options;
 };
 PartPicture pictureOf(const PlainPart& part, const Excerpt& excerpt, const Options& options);
-/// The picture of a plan. `take` gives those of its parts, once, in their order.
-Result joinParts(const FilterPlan& plan, const Excerpt& excerpt,
-                 const std::function<Result(std::size_t part)>& take);
+/// The picture of a plan's commands. `pictureOf` gives the picture of each part, once, in their order.
+Result joinParts(Result commands, std::span<const PlainPart> parts, const Excerpt& excerpt,
+                 const std::function<const Result&(std::size_t part)>& pictureOf);
 
 }  // namespace vtm::compiler

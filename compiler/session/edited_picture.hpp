@@ -21,6 +21,12 @@ public:
     /// is made. If this throws, the result stays.
     void update(const scene::Scene& scene, const Excerpt& excerpt, const Options& options);
 
+    /// Stays as it is: its stages take no time.
+    void keep() {
+        for (StageTime& stage : result_.stages)
+            stage.milliseconds = 0;
+    }
+
     const Result& result() const { return result_; }
     /// What the last of these changed.
     const Edited& report() const { return report_; }

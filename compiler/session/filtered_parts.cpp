@@ -50,10 +50,11 @@ bool fits(const Box& frame, const PlainPart& part) {
            longerSide(frame) <= maxTimes * longerSide(part.frame);
 }
 
-Result withoutTimes(Result result) {
-    for (StageTime& stage : result.stages)
-        stage.milliseconds = 0;
-    return result;
+/// For an asset that will be about as large.
+void reserveAsIn(const asset::Asset& last, asset::Asset& next) {
+    next.nodes.reserve(last.nodes.size());
+    next.leaves.reserve(last.leaves.size());
+    next.pieces.reserve(last.pieces.size());
 }
 
 }  // namespace
@@ -123,7 +124,9 @@ void FilteredParts::update(const scene::Scene& scene, const Options& options) {
         if (last[i].part && fits(parts[i].from.frame, from))
             from.frame = parts[i].from.frame;
         EditedPicture& picture = parts[i].picture;
-        if (!last[i].isSame) {
+        if (last[i].isSame) {
+            picture.keep();
+        } else {
             const PartPicture part = pictureOf(from, whole, options);
             if (last[i].part)
                 picture.update(part.scene, part.excerpt, part.options);
@@ -137,12 +140,14 @@ void FilteredParts::update(const scene::Scene& scene, const Options& options) {
     }
 
     asset::Difference& difference = report.difference;
-    Result result = joinParts(plan, whole, [&](std::size_t i) {
-        std::ranges::move(changesOf(parts[i], last[i].isSame), std::back_inserter(difference.maps));
-        const Result& part = parts[i].picture.result();
-        parts[i].firstMap = static_cast<std::uint32_t>(difference.maps.size() - part.asset.maps.size());
-        return last[i].isSame ? withoutTimes(part) : part;
-    });
+    reserveAsIn(result_.asset, plan.commands.asset);
+    Result result =
+        joinParts(std::move(plan.commands), plan.parts, whole, [&](std::size_t i) -> const Result& {
+            std::ranges::move(changesOf(parts[i], last[i].isSame), std::back_inserter(difference.maps));
+            const Result& part = parts[i].picture.result();
+            parts[i].firstMap = static_cast<std::uint32_t>(difference.maps.size() - part.asset.maps.size());
+            return part;
+        });
     difference.pixelsAround = resampledPixels;
     difference.areas = isSameSize ? changedAreas(scene_, scene)
                                   : std::vector<asset::Area>{{0, 0, scene.width, scene.height}};
