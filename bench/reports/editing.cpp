@@ -133,7 +133,7 @@ public:
         if (session.result().asset.filters.empty())
             scanner_.emplace(session.result().asset);
         else
-            evaluator_.emplace(session.result().asset);
+            evaluator_.emplace(session.result().asset, asset::EvaluatorOptions{.keepsFilterResults = true});
         redraw();
     }
     bool shows() const { return scanner_ || evaluator_; }

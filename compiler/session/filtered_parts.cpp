@@ -97,9 +97,9 @@ std::vector<asset::MapChange> FilteredParts::changesOf(const Part& part, bool is
     const asset::Difference& edit = part.picture.report().difference;
     if (isSame)
         for (std::uint32_t i = 0; i < changes.size(); ++i)
-            changes[i].before = part.firstMap + i;
-    else if (!edit.everything)
-        changes[0] = {part.firstMap, edit.squares};  // what is edited has one map
+            changes[i] = {part.firstMap + i, {}, false};
+    else if (!edit.everything)  // then it has one map
+        changes[0] = {part.firstMap, edit.squares, edit.paints || edit.images};
     return changes;
 }
 

@@ -20,6 +20,7 @@ struct MapChange {
     static constexpr std::uint32_t isNew = 0xFFFFFFFF;
     std::uint32_t before = isNew;  ///< its number there; no two maps have the same
     std::vector<Cell> squares;     ///< whose subtrees changed; as Difference::squares
+    bool paints = true;            ///< its paints changed, or their data, images or materials
 };
 
 /// Between two assets of one size that follow each other (compiler::Session::difference()).
@@ -31,12 +32,12 @@ struct Difference {
     std::vector<Cell> squares;
     bool paints = true;  ///< paints or their data changed
     bool images = true;  ///< images or materials changed
-    /// Of pictures with filters, where `everything` is set: by map of the next asset, what can be taken over
-    /// all the same (asset::Evaluator::update). Empty: nothing.
-    std::vector<MapChange> maps;
     /// What may look different, also if nothing can be taken over. Nothing does outside; boxes may overlap.
     std::vector<Area> areas;
     int pixelsAround = 0;  ///< so many pixels around them may look different too: filters resample
+    /// Of pictures with filters, where `everything` is set: by map of the next asset, what can be taken over
+    /// all the same (asset::Evaluator::update). Empty: nothing.
+    std::vector<MapChange> maps;
 };
 
 }  // namespace vtm::asset

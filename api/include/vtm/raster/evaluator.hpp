@@ -16,12 +16,20 @@
 
 namespace vtm::asset {
 
+struct EvaluatorOptions {
+    /// Keeps what filters made under the view that draw() drew last, for drawBox() under the same view, which
+    /// makes only those anew into which something else goes now. Takes 16 bytes for each pixel of each
+    /// filter's result, 64 MiB at most, and some of draw()'s time. Not where there are materials.
+    bool keepsFilterResults = false;
+};
+
 /// Draws what evaluate() draws, and keeps what drawings share: paints, and of pictures with filters the
 /// boundaries of their maps. Safe to use from several threads at once, except for update().
 class Evaluator {
 public:
     /// `asset` must be valid (asset::validate) and outlive it.
     explicit Evaluator(const AssetView& asset);
+    Evaluator(const AssetView& asset, const EvaluatorOptions& options);
     ~Evaluator();
     Evaluator(Evaluator&&) noexcept;
     Evaluator& operator=(Evaluator&&) noexcept;
