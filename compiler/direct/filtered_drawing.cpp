@@ -86,9 +86,8 @@ std::unique_ptr<const FilteredDrawing> FilteredDrawing::make(const scene::Scene&
         parts.push_back(pictureOf(part, excerpt, options));
     Result last;
     const Result commands =
-        joinParts(std::move(plan.commands), plan.parts, excerpt, [&](std::size_t part) -> const Result& {
-            return last = standIn(parts[part].excerpt);
-        });
+        joinParts(std::move(plan.commands), plan.parts, excerpt,
+                  [&](std::size_t part) -> const Result& { return last = standIn(parts[part].excerpt); });
     PartDrawer drawer(std::move(parts), commands);
     asset::CommandPicture picture(commands.asset, view, drawer);
     if (!drawer.isComplete())

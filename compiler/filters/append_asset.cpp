@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <set>
 #include <span>
 #include <string>
+#include <utility>
 
 #include <vtm/compiler/compile.hpp>
 #include "asset/records.hpp"
@@ -144,25 +144,28 @@ private:
         append(asset_.paints, part_.paints);
         append(asset_.data, part_.data);
         append(asset_.images, part_.images);
-        std::set<std::uint32_t> programs, records;
+        std::vector<bool> isMoved(part_.data.size() + 1);  // programs and records, by where they begin
         for (Texel& paint : std::span(asset_.paints).subspan(base_.paints)) {
             if (!asset::isProgram(paint))
                 continue;
             const std::uint32_t first = paint[0];
             paint[0] += base_.data;
-            if (programs.insert(first).second)
-                for (std::uint32_t i = paint[0]; i < paint[0] + paint[1]; ++i)
-                    moveInstruction(i, records);
+            if (isMoved[first])
+                continue;
+            isMoved[first] = true;
+            for (std::uint32_t i = paint[0]; i < paint[0] + paint[1]; ++i)
+                moveInstruction(i, isMoved);
         }
     }
 
-    /// At a texel of the asset. `records`: those that have been moved.
-    void moveInstruction(std::uint32_t texel, std::set<std::uint32_t>& records) {
+    /// At a texel of the asset.
+    void moveInstruction(std::uint32_t texel, std::vector<bool>& isMoved) {
         auto in = asset::recordAt<asset::Instruction>(asset_.data, texel);
         if (in.op < asset::Op::Solid)
             return;
-        in.argument += base_.data;
-        if (in.op != asset::Op::Solid && records.insert(in.argument).second) {
+        const std::uint32_t record = std::exchange(in.argument, in.argument + base_.data);
+        if (in.op != asset::Op::Solid && !isMoved[record]) {
+            isMoved[record] = true;
             if (in.op == asset::Op::Image)
                 moveRecord<asset::ImageFill>(in.argument,
                                              [&](asset::ImageFill& fill) { fill.image += base_.images; });

@@ -431,8 +431,8 @@ PartPicture pictureOf(const PlainPart& part, const Excerpt& excerpt, const Optio
     picture.excerpt.height = part.frame.height();
     const double longer = std::max(picture.excerpt.width, picture.excerpt.height);
     picture.options.tolerance =
-        std::clamp(options.tolerance * std::max(excerpt.width, excerpt.height) / longer,
-                   std::ldexp(1.0, -26), std::ldexp(1.0, -6));
+        std::clamp(options.tolerance * std::max(excerpt.width, excerpt.height) / longer, std::ldexp(1.0, -26),
+                   std::ldexp(1.0, -6));
     return picture;
 }
 

@@ -33,7 +33,7 @@ struct PlainPart {
     scene::NodeList nodes;
     geometry::Box content;  ///< around what is seen of them; all boxes are in the space of the excerpt
     geometry::Box seen;     ///< what of the picture that it is drawn on is needed
-    geometry::Box frame;    ///< what is compiled: the content and some room around it, but no more than is seen
+    geometry::Box frame;  ///< what is compiled: the content and some room around it, but no more than is seen
 };
 
 /// A scene with filters as commands.

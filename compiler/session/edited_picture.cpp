@@ -52,7 +52,8 @@ void EditedPicture::update(const scene::Scene& scene, const Excerpt& excerpt, co
 }
 
 /// Makes what is to be kept if there is nothing. Whether it did it.
-bool EditedPicture::tryEdit(std::unique_ptr<Kept>& kept, const scene::Scene& scene, const Excerpt& excerpt, const Options& options) {
+bool EditedPicture::tryEdit(std::unique_ptr<Kept>& kept, const scene::Scene& scene, const Excerpt& excerpt,
+                            const Options& options) {
     std::optional<Edited> edited;
     if (kept) {
         try {

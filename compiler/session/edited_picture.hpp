@@ -41,7 +41,8 @@ private:
     std::unique_ptr<Kept> kept_;
     Result result_;
     Edited report_;
-    std::vector<std::uint64_t> compiled_;  ///< sorted keys of the scene, if it was compiled without what is kept
+    std::vector<std::uint64_t>
+        compiled_;  ///< sorted keys of the scene, if it was compiled without what is kept
 };
 
 }  // namespace vtm::compiler

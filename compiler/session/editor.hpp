@@ -39,8 +39,8 @@ struct Edited {
 };
 
 /// Brings `kept` and `result` from the last scene to `scene`. Gives up and returns nothing if most outlines
-/// are new, because compiling takes less, or if a pattern must be drawn as an image. If it does, or throws, `kept` is of no use any more, and `result` is what
-/// it was.
+/// are new, because compiling takes less, or if a pattern must be drawn as an image. If it does, or throws,
+/// `kept` is of no use any more, and `result` is what it was.
 std::optional<Edited> edit(Kept& kept, Result& result, const scene::Scene& scene, const Options& options);
 
 }  // namespace vtm::compiler

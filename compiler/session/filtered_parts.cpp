@@ -103,26 +103,17 @@ std::vector<asset::MapChange> FilteredParts::changesOf(const Part& part, bool is
     return changes;
 }
 
-void FilteredParts::update(const scene::Scene& scene, const Options& options) {
-    const Excerpt whole = wholeOf(scene);
-    std::vector<Part> before = std::exchange(parts_, {});  // lost if anything throws
-    const bool isSameSize = scene_.width == scene.width && scene_.height == scene.height;
-    if (!isSameSize)
-        before.clear();
-    FilterPlan plan =
-        planFiltered(scene, whole, options, [](const scene::Scene& part, const Excerpt& of, const Options& how) {
-            return compileExcerpt(part, of, how);
-        });
-    const std::vector<Last> last = lastOf(plan.parts, before);
-
-    Edited report{{.anew = before.empty(), .blocksInAll = last.size()}, {}};
+/// Brings the parts before to those of the plan, whose frames become theirs.
+std::vector<FilteredParts::Part> FilteredParts::partsOf(FilterPlan& plan, const std::vector<Last>& last,
+                                                        const Excerpt& whole, const Options& options) {
     std::vector<Part> parts(last.size());
     for (std::size_t i = 0; i < last.size(); ++i) {
         PlainPart& from = plan.parts[i];
-        if (last[i].part)
+        if (last[i].part) {
             parts[i] = std::move(*last[i].part);
-        if (last[i].part && fits(parts[i].from.frame, from))
-            from.frame = parts[i].from.frame;
+            if (fits(parts[i].from.frame, from))
+                from.frame = parts[i].from.frame;
+        }
         EditedPicture& picture = parts[i].picture;
         if (last[i].isSame) {
             picture.keep();
@@ -132,22 +123,51 @@ void FilteredParts::update(const scene::Scene& scene, const Options& options) {
                 picture.update(part.scene, part.excerpt, part.options);
             else
                 picture.compile(part.scene, part.excerpt, part.options);
-            ++report.update.blocks;
-            report.update.outlines += picture.report().update.outlines;
-            report.update.paints += picture.report().update.paints;
         }
         parts[i].from = {std::move(from.nodes), from.content, from.seen, from.frame};
     }
+    return parts;
+}
 
+void FilteredParts::update(const scene::Scene& scene, const Options& options) {
+    const Excerpt whole = wholeOf(scene);
+    std::vector<Part> before = std::exchange(parts_, {});  // lost if anything throws
+    const bool isSameSize = scene_.width == scene.width && scene_.height == scene.height;
+    if (!isSameSize)
+        before.clear();
+    FilterPlan plan = planFiltered(scene, whole, options,
+                                   [](const scene::Scene& part, const Excerpt& of, const Options& how) {
+                                       return compileExcerpt(part, of, how);
+                                   });
+    const std::vector<Last> last = lastOf(plan.parts, before);
+    std::vector<const Part*> hadImages, haveImages;  // where they were before, or null
+    for (const Part& part : before)
+        if (!part.picture.result().asset.images.empty())
+            hadImages.push_back(&part);
+    std::vector<Part> parts = partsOf(plan, last, whole, options);
+
+    Edited report{{.anew = before.empty(), .blocksInAll = last.size()}, {}};
     asset::Difference& difference = report.difference;
     reserveAsIn(result_.asset, plan.commands.asset);
-    Result result =
-        joinParts(std::move(plan.commands), plan.parts, whole, [&](std::size_t i) -> const Result& {
-            std::ranges::move(changesOf(parts[i], last[i].isSame), std::back_inserter(difference.maps));
-            const Result& part = parts[i].picture.result();
-            parts[i].firstMap = static_cast<std::uint32_t>(difference.maps.size() - part.asset.maps.size());
-            return part;
-        });
+    const auto take = [&](std::size_t i) -> const Result& {
+        const Result& picture = parts[i].picture.result();
+        const Edited& edit = parts[i].picture.report();
+        const bool isSame = last[i].isSame;
+        if (!isSame) {
+            ++report.update.blocks;
+            report.update.outlines += edit.update.outlines;
+            report.update.paints += edit.update.paints;
+        }
+        if (!picture.asset.images.empty())
+            haveImages.push_back(
+                isSame || !(edit.difference.everything || edit.difference.images) ? last[i].part : nullptr);
+        std::ranges::move(changesOf(parts[i], isSame), std::back_inserter(difference.maps));
+        parts[i].firstMap = static_cast<std::uint32_t>(difference.maps.size() - picture.asset.maps.size());
+        return picture;
+    };
+    Result result = joinParts(std::move(plan.commands), plan.parts, whole, take);
+    difference.images =
+        before.empty() || haveImages != hadImages || result.asset.materials != result_.asset.materials;
     difference.pixelsAround = resampledPixels;
     difference.areas = isSameSize ? changedAreas(scene_, scene)
                                   : std::vector<asset::Area>{{0, 0, scene.width, scene.height}};

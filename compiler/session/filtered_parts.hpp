@@ -17,8 +17,9 @@ namespace vtm::compiler {
 /// A scene with filters, and what of it has none itself, part by part.
 class FilteredParts {
 public:
-    /// Goes on to the next scene, which must be valid and have filters. Parts that stay the same are kept, and
-    /// those that changed are edited. If it throws, the result stays, and the next scene is compiled anew.
+    /// Goes on to the next scene, which must be valid and have filters. Parts that stay the same are kept,
+    /// and those that changed are edited. If it throws, the result stays, and the next scene is compiled
+    /// anew.
     void update(const scene::Scene& scene, const Options& options);
 
     const Result& result() const { return result_; }
@@ -38,6 +39,8 @@ private:
     };
 
     static std::vector<Last> lastOf(const std::vector<PlainPart>& now, std::vector<Part>& before);
+    static std::vector<Part> partsOf(FilterPlan& plan, const std::vector<Last>& last, const Excerpt& whole,
+                                     const Options& options);
     static std::vector<asset::MapChange> changesOf(const Part& part, bool isSame);
 
     std::vector<Part> parts_;

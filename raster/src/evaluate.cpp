@@ -430,12 +430,11 @@ Raster evaluateAsShaders(const AssetView& asset, const View& view, const Materia
 }
 
 struct Evaluator::Impl {
-    Impl(const AssetView& asset, const EvaluatorOptions& of) : options(of), paints(asset) {
-        // Faster where maps are seen whole.
-        if (!asset.filters.empty())
-            scanner.emplace(paints);
-    }
-    Impl(const AssetView& asset, Impl&& last, const Difference& difference) : Impl(asset, last.options) {
+    Impl(const AssetView& asset, const EvaluatorOptions& of) : Impl(Paints(asset), of) {}
+    Impl(const AssetView& asset, Impl&& last, const Difference& difference)
+        : Impl(difference.images ? Paints(asset)
+                                 : Paints(asset, std::make_shared<const Images>(asset, last.paints.images())),
+               last.options) {
         if (!scanner || !last.scanner)
             return;
         scanner.emplace(paints, std::move(*last.scanner), difference.maps);
@@ -461,6 +460,11 @@ struct Evaluator::Impl {
     }
 
 private:
+    Impl(Paints of, const EvaluatorOptions& how) : options(how), paints(std::move(of)) {
+        // Faster where maps are seen whole.
+        if (!paints.asset().filters.empty())
+            scanner.emplace(paints);
+    }
     Canvas draw(const View& view, const MaterialFunction& materials, const Keeping& keeping) const {
         return drawn(paints, view, materials, finerLevels(paints.asset(), view),
                      scanner ? &*scanner : nullptr, keeping);
@@ -472,8 +476,8 @@ private:
 
     const EvaluatorOptions options;
     const Paints paints;
-    std::optional<MapScanner> scanner;  ///< where there are filters
-    mutable std::mutex mutex;           ///< guards `results`
+    std::optional<MapScanner> scanner;               ///< where there are filters
+    mutable std::mutex mutex;                        ///< guards `results`
     mutable std::shared_ptr<FilterResults> results;  ///< of the view that was drawn last
 };
 

@@ -180,7 +180,8 @@ void FilterResults::put(std::size_t first, const PixelBox& shown, const PixelBox
         return;
     Result& kept = found->second;
     copy(result, box, kept);
-    std::erase_if(kept.stale, [&](const PixelBox& stale) { return isWithin(stale.intersection(kept.box), box); });
+    std::erase_if(kept.stale,
+                  [&](const PixelBox& stale) { return isWithin(stale.intersection(kept.box), box); });
 }
 
 }  // namespace vtm::asset

@@ -22,8 +22,8 @@ namespace vtm::asset {
 /// The first of the commands pushes a filter's first input: those up to the filter.
 std::span<const Command> filteredBy(const AssetView& asset, std::span<const Command> commands);
 
-/// Of the filters that are in no other: those of pictures that are seen under the view itself. Safe to use from
-/// several threads at once, except for update().
+/// Of the filters that are in no other: those of pictures that are seen under the view itself. Safe to use
+/// from several threads at once, except for update().
 class FilterResults {
 public:
     /// Nothing is kept yet.
@@ -39,8 +39,8 @@ public:
     /// What a box of the view shows of the result of commands, under the view of that box; nothing where that
     /// is not known. `first`: their number.
     std::optional<Canvas> find(std::size_t first, const PixelBox& box, const View& below) const;
-    /// Keeps a result, which is under the view of a box. `shown`: all that the view shows of it; beyond the box
-    /// that must be there already.
+    /// Keeps a result, which is under the view of a box. `shown`: all that the view shows of it; beyond the
+    /// box that must be there already.
     void put(std::size_t first, const PixelBox& shown, const PixelBox& box, const Canvas& result);
 
 private:
@@ -60,8 +60,8 @@ private:
     static void copy(const Canvas& from, const PixelBox& box, Result& to);
 
     View view_;
-    mutable std::mutex mutex_;                ///< guards what follows
-    std::map<std::size_t, Origin> origins_;   ///< by the first command
+    mutable std::mutex mutex_;               ///< guards what follows
+    std::map<std::size_t, Origin> origins_;  ///< by the first command
     std::map<std::size_t, Result> results_;
     std::size_t pixels_ = 0;  ///< of the results
 };

@@ -110,11 +110,24 @@ bool isOpaque(const image::Bitmap& bitmap) {
 }  // namespace
 
 Images::Images(const AssetView& asset) {
+    for (const image::Bitmap& bitmap : asset.images)
+        images_.push_back({&bitmap, nullptr, isOpaque(bitmap)});
+    makeLevels(asset);
+}
+
+Images::Images(const AssetView& asset, const Images& last) : images_(last.images_) {
+    for (std::size_t i = 0; i < images_.size(); ++i)
+        images_[i].bitmap = &asset.images[i];
+    makeLevels(asset);
+}
+
+/// Those that are read and not there yet.
+void Images::makeLevels(const AssetView& asset) {
     const std::vector<bool> wanted = imagesWithLevels(asset);
-    for (std::size_t i = 0; i < asset.images.size(); ++i)
-        images_.push_back({&asset.images[i],
-                           wanted[i] ? image::levelsOf(asset.images[i]) : std::vector<image::Level>(),
-                           isOpaque(asset.images[i])});
+    for (std::size_t i = 0; i < images_.size(); ++i)
+        if (wanted[i] && !images_[i].levels)
+            images_[i].levels =
+                std::make_shared<const std::vector<image::Level>>(image::levelsOf(asset.images[i]));
 }
 
 ImageReader::ImageReader(const Images& images, const ImageFill& fill, const mat2& pixel)
@@ -126,7 +139,7 @@ ImageReader::ImageReader(const Images& images, const ImageFill& fill, const mat2
         return;
     }
     probes_ = probesOf(mat2(fill.matrix[0], fill.matrix[1], fill.matrix[2], fill.matrix[3]) * pixel);
-    const float last = float(image.levels.size());
+    const float last = float(image.levelCount());
     const float lod = std::clamp(std::floor(std::log2(probes_.width)) - 1, 0.0f, last);
     const auto level = unsigned(lod);
     finer_ = texelsOf(image, level);
@@ -142,7 +155,7 @@ ImageReader::ImageReader(const Images& images, const ImageFill& fill, const mat2
 ImageReader::Texels ImageReader::texelsOf(const LeveledImage& image, unsigned level) {
     if (level == 0)
         return {image.bitmap->width, image.bitmap->height, image.bitmap->rgba.data(), image.isOpaque, 1};
-    const image::Level& texels = image.levels[level - 1];
+    const image::Level& texels = (*image.levels)[level - 1];
     return {texels.width, texels.height, texels.rgba.data(), true, std::ldexp(1.0f, -int(level))};
 }
 

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include <glm/mat2x2.hpp>
@@ -19,18 +21,24 @@ namespace vtm::asset {
 /// An image with those of its levels that a paint reads.
 struct LeveledImage {
     const image::Bitmap* bitmap;
-    std::vector<image::Level> levels;
+    std::shared_ptr<const std::vector<image::Level>> levels;  ///< null: no paint reads them
     bool isOpaque;
+
+    std::size_t levelCount() const { return levels ? levels->size() : 0; }
 };
 
 /// An asset's images. The asset must outlive it.
 class Images {
 public:
     explicit Images(const AssetView& asset);
+    /// Of an asset with the same images as that of `last`, which may be gone.
+    Images(const AssetView& asset, const Images& last);
 
     const LeveledImage& operator[](std::uint32_t i) const { return images_[i]; }
 
 private:
+    void makeLevels(const AssetView& asset);
+
     std::vector<LeveledImage> images_;
 };
 

@@ -30,7 +30,8 @@ namespace vtm::asset {
 class PlacedMaps {
 public:
     /// Must outlive it.
-    explicit PlacedMaps(const AssetView& asset) : PlacedMaps(asset, std::vector<std::optional<ScannedMap>>()) {}
+    explicit PlacedMaps(const AssetView& asset)
+        : PlacedMaps(asset, std::vector<std::optional<ScannedMap>>()) {}
     /// Of the asset that follows that of `last`, whose boundaries it takes over.
     PlacedMaps(const AssetView& asset, PlacedMaps&& last, std::span<const MapChange> changes)
         : PlacedMaps(asset, takenOver(std::move(last.maps_), changes)) {}

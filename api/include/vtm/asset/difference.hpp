@@ -25,7 +25,7 @@ struct MapChange {
 
 /// Between two assets of one size that follow each other (compiler::Session::difference()).
 struct Difference {
-    bool everything = true;  ///< nothing can be taken over; else what follows holds of records
+    bool everything = true;  ///< nothing can be taken over but images and `maps`
     /// Squares of the first map whose subtrees changed. The rest of the tree has the same leaves and pieces,
     /// with the same numbers of paints; records may stand elsewhere. Assets have one map then, and no
     /// instances.
