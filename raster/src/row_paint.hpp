@@ -89,8 +89,12 @@ public:
         };
         if (isRadial_)
             visitRadial(first, count, visit, others);
-        else
+        else if (Float4 color; !linear_.isEven(first, count))
             visitLinear(first, count, visit);
+        else if (at(first, color))
+            constant(0, count, color);
+        else
+            others(0, count);
     }
 
 private:
@@ -182,6 +186,10 @@ private:
         float width;                ///< over so much to both sides u is spread in a pixel
 
         float at(Pixel pixel) const { return float(first + pixel.x * right + pixel.row * down); }
+        /// Whether pixels of a row have the same u, as under a vertical gradient.
+        bool isEven(Pixel from, std::size_t count) const {
+            return at(from) == at({from.x + int(count) - 1, from.row});
+        }
     };
     /// Circles that lie within each other: u = b + sqrt(b² + c) (gradient.cpp).
     struct Radial {
