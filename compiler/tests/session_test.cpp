@@ -85,6 +85,51 @@ TEST_P(FilteredEdits, drawWhatAFreshCompilationDraws) {
     EXPECT_GT(edited, 0u);
 }
 
+/// A blurred square between squares with an image each.
+Scene imagesAndABlur() {
+    Scene scene{64, 64, {}};
+    const auto square = [](Point at) {
+        Item item;
+        item.path = std::make_shared<scene::Path>(scene::rectangle(at, at + Point{20, 20}));
+        return item;
+    };
+    for (int i = 0; i < 3; ++i) {
+        Item item = square({8.0 + 10 * i, 8.0 + 10 * i});
+        if (i == 1) {
+            item.paint = Color{1, 0, 0, 1};
+            Group blurred;
+            const Point min(-10), max(74);
+            blurred.filter = std::make_shared<scene::Filter>(scene::Filter{
+                scene::identity, min, max, {{scene::GaussianBlurFilter{1, 1}, {{}}, min, max, false}}});
+            blurred.children.push_back({item});
+            scene.root.children.push_back({blurred});
+        } else {
+            item.paint = scene::ImagePaint{
+                std::make_shared<image::Bitmap>(image::Bitmap{1, 1, {std::uint8_t(100 * i), 50, 20, 255}})};
+            scene.root.children.push_back({item});
+        }
+    }
+    return scene;
+}
+
+TEST(Session, tellsWhetherImagesBetweenFiltersStayed) {
+    Scene scene = imagesAndABlur();
+    Session session(scene);
+    EXPECT_TRUE(session.difference().images);
+    auto& blurred = std::get<Group>(scene.root.children[1].value);
+    std::get<Item>(blurred.children[0].value).paint = Color{0, 1, 0, 1};
+    session.update(scene);
+    EXPECT_FALSE(session.difference().images);
+    std::swap(scene.root.children[0], scene.root.children[2]);
+    session.update(scene);
+    EXPECT_TRUE(session.difference().images);
+    session.update(scene);
+    EXPECT_FALSE(session.difference().images);
+    std::get<Item>(scene.root.children[0].value).paint = Color{0, 0, 1, 1};
+    session.update(scene);
+    EXPECT_TRUE(session.difference().images);
+}
+
 TEST(Session, givesTheSameBytesForTheSameEdits) {
     const auto bytes = [] {
         test::RandomEditor editor(99, 60);
