@@ -85,6 +85,29 @@ TEST_P(FilteredEdits, drawWhatAFreshCompilationDraws) {
     EXPECT_GT(edited, 0u);
 }
 
+/// They cannot be geometry of blocks.
+TEST(Session, keepsPatternsOfTooManyTiles) {
+    Group tile;
+    Item dot;
+    dot.path = std::make_shared<scene::Path>(scene::rectangle({0, 0}, {0.2, 0.1}));
+    dot.paint = Color{1, 0, 0, 1};
+    tile.children.push_back({dot});
+    Item ground;
+    ground.path = std::make_shared<scene::Path>(scene::rectangle({2, 3}, {60, 61}));
+    ground.paint = scene::Pattern{{0, 0}, {0.3, 0.3}, std::make_shared<Group>(std::move(tile))};
+    Scene scene{64, 64, {}};
+    scene.root.children.push_back({ground});
+    scene.root.children.push_back({dot});
+    Session session(scene);
+    for (const double by : {0.0, 5.0, 9.0}) {
+        std::get<Item>(scene.root.children[1].value).transform = scene::translation(by, 0);
+        session.update(scene);
+        const Result fresh = compile(scene);
+        EXPECT_EQ(session.result().warnings, fresh.warnings);
+        EXPECT_LE(largestDifference(session.result().asset, fresh.asset), 2);
+    }
+}
+
 /// A blurred square between squares with an image each.
 Scene imagesAndABlur() {
     Scene scene{64, 64, {}};

@@ -430,13 +430,22 @@ Raster evaluateAsShaders(const AssetView& asset, const View& view, const Materia
 }
 
 struct Evaluator::Impl {
-    Impl(const AssetView& asset, const EvaluatorOptions& of) : Impl(Paints(asset), of) {}
+    Impl(const AssetView& asset, const EvaluatorOptions& of) : options(of), paints(asset) {
+        // Faster where maps are seen whole.
+        if (!asset.filters.empty())
+            scanner.emplace(paints);
+    }
     Impl(const AssetView& asset, Impl&& last, const Difference& difference)
-        : Impl(difference.images ? Paints(asset)
-                                 : Paints(asset, std::make_shared<const Images>(asset, last.paints.images())),
-               last.options) {
-        if (!scanner || !last.scanner)
+        : options(last.options),
+          paints(difference.images
+                     ? Paints(asset)
+                     : Paints(asset, std::make_shared<const Images>(asset, last.paints.images()))) {
+        if (asset.filters.empty())
             return;
+        if (!last.scanner) {
+            scanner.emplace(paints);
+            return;
+        }
         scanner.emplace(paints, std::move(*last.scanner), difference.maps);
         results = std::move(last.results);
         if (results)
@@ -448,9 +457,9 @@ struct Evaluator::Impl {
             return draw(view, materials, {});
         validate(view);
         auto made = std::make_shared<FilterResults>(paints.asset(), view);
+        share(nullptr);  // first, so that there are never two
         Canvas canvas = draw(view, materials, {made.get(), {{0, 0}, {view.width, view.height}}, false});
-        const std::lock_guard lock(mutex);
-        results = std::move(made);
+        share(std::move(made));
         return canvas;
     }
     Canvas drawBox(const View& view, const PixelBox& box, const MaterialFunction& materials) const {
@@ -460,14 +469,13 @@ struct Evaluator::Impl {
     }
 
 private:
-    Impl(Paints of, const EvaluatorOptions& how) : options(how), paints(std::move(of)) {
-        // Faster where maps are seen whole.
-        if (!paints.asset().filters.empty())
-            scanner.emplace(paints);
-    }
     Canvas draw(const View& view, const MaterialFunction& materials, const Keeping& keeping) const {
         return drawn(paints, view, materials, finerLevels(paints.asset(), view),
                      scanner ? &*scanner : nullptr, keeping);
+    }
+    void share(std::shared_ptr<FilterResults> made) const {
+        const std::lock_guard lock(mutex);
+        results.swap(made);
     }
     std::shared_ptr<FilterResults> sharedResults() const {
         const std::lock_guard lock(mutex);

@@ -26,10 +26,11 @@ void appendFilter(const AssetView& asset, const Filter& filter, std::string& byt
     for (const FilterPrimitive& primitive : primitivesOf(asset, filter)) {
         append(primitive.op, bytes);
         append(primitive.linear, bytes);
+        append(primitive.inputs, bytes);
         append(primitive.region, bytes);
-        for (const std::uint32_t word :
-             asset.filterWords.subspan(primitive.firstWord, primitive.inputs + primitive.parameters))
-            append(word, bytes);
+        const auto words =
+            asset.filterWords.subspan(primitive.firstWord, primitive.inputs + primitive.parameters);
+        bytes.append(reinterpret_cast<const char*>(words.data()), words.size_bytes());
     }
 }
 

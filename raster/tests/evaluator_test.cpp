@@ -60,16 +60,23 @@ TEST(Evaluator, DrawsAgainWhatEvaluateDraws) {
 
 TEST(Evaluator, ServesSeveralThreads) {
     const Asset asset = assetOf(filtered);
-    const Evaluator evaluator(asset);
     const std::vector<View> all = views(asset);
-    std::vector<image::Raster> drawn(2 * all.size());
-    {
-        std::vector<std::jthread> threads;
+    for (const bool keeps : {false, true}) {
+        const Evaluator evaluator(asset, {keeps});
+        std::vector<image::Raster> drawn(2 * all.size());
+        {
+            std::vector<std::jthread> threads;
+            for (std::size_t i = 0; i < drawn.size(); ++i)
+                threads.emplace_back([&, i] {
+                    const View& view = all[i % all.size()];
+                    drawn[i] = evaluator.draw(view);
+                    std::vector<std::uint8_t> bytes(drawn[i].rgba.size());
+                    evaluator.drawBox(view, {{4, 5}, {30, 20}}, {bytes.data(), std::size_t(view.width) * 4});
+                });
+        }
         for (std::size_t i = 0; i < drawn.size(); ++i)
-            threads.emplace_back([&, i] { drawn[i] = evaluator.draw(all[i % all.size()]); });
+            EXPECT_EQ(drawn[i].rgba, evaluate(asset, all[i % all.size()]).rgba) << i;
     }
-    for (std::size_t i = 0; i < drawn.size(); ++i)
-        EXPECT_EQ(drawn[i].rgba, evaluate(asset, all[i % all.size()]).rgba) << i;
 }
 
 /// What lies over others as a map of its own is what it is on a picture that is blended.
