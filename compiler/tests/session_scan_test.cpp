@@ -388,6 +388,21 @@ TEST_P(ShownDrawings, AreDrawnWhereTheyAre) {
     EXPECT_LT(pixels, edits * 2 * (200 * 200 + 120 * 120) / 3);
 }
 
+/// Every update compiles all of it, and says nothing of maps.
+TEST(ShownSession, FiltersInCompatMode) {
+    Drawings drawings(3);
+    scene::Scene scene = drawings.cards();
+    const Options compat{.mode = asset::Mode::Compat};
+    Session session(scene, compat);
+    ShownByEvaluator shown(session, view(200, 3, 0), {.keepsFilterResults = true});
+    for (int i = 0; i < 8; ++i) {
+        drawings.edit(scene);
+        session.update(scene);
+        shown.update(session);
+        shown.expectFresh(compile(scene, compat).asset);
+    }
+}
+
 /// A square of a picture of 40 × 40 is moved under a blur of half a unit, whose light ends within 4 units.
 TEST(ShownSession, RedrawsAsFarAsABlurSpreads) {
     scene::Group blurred;

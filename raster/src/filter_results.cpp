@@ -96,6 +96,8 @@ std::map<std::size_t, FilterResults::Origin> FilterResults::originsOf(const Asse
 
 void FilterResults::update(const AssetView& asset, const Difference& difference) {
     std::map<std::size_t, Origin> origins = originsOf(asset);
+    if (difference.maps.empty())  // as in compat mode: nothing is known of what is drawn
+        results_.clear();
     std::map<std::size_t, Result> results;
     std::map<std::vector<std::uint32_t>, std::size_t> before;
     for (const auto& [first, result] : results_)
