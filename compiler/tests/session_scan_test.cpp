@@ -85,6 +85,7 @@ public:
         evaluator_.update(session.result().asset, session.difference());
         return drawChanges(evaluator_, session, view_, bytes_);
     }
+    void redraw() { evaluator_.draw(view_, bytes_.target()); }
 
     void expectFresh(const Session& session) const {
         Bytes fresh(view_), whole(view_);
@@ -117,7 +118,17 @@ public:
     ShownByKeptResults(const Session& session, const asset::View& view)
         : ShownByEvaluator(session, view, {.keepsFilterResults = true}) {}
 
+    /// Parts that were edited once are edited by squares: now and then results of such are kept.
+    std::size_t update(const Session& session) {
+        const std::size_t pixels = ShownByEvaluator::update(session);
+        if (++updates_ % 4 == 0)
+            redraw();
+        return pixels;
+    }
     void expectFresh(const Session&) const {}
+
+private:
+    int updates_ = 0;
 };
 
 /// Of a picture of 64 × 64 units.
@@ -382,6 +393,8 @@ TEST_P(ShownDrawings, AreDrawnWhereTheyAre) {
         for (ShownByEvaluator& shown : all) {
             pixels += shown.update(session);
             shown.expectFresh(fresh);
+            if (i % 8 == 7)
+                shown.redraw();
         }
     }
     EXPECT_GT(edited, std::size_t(edits) / 4);  // others were edited for the first time, or have one item

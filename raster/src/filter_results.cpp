@@ -34,6 +34,10 @@ void appendFilter(const AssetView& asset, const Filter& filter, std::string& byt
     }
 }
 
+bool isSame(const MapChange& change) {
+    return change.before != MapChange::isNew && change.squares.empty() && !change.paints;
+}
+
 bool meet(const PixelBox& a, const PixelBox& b) { return !a.intersection(b).empty(); }
 
 bool isWithin(const PixelBox& inner, const PixelBox& outer) {
@@ -67,7 +71,7 @@ std::span<const Command> filteredBy(const AssetView& asset, std::span<const Comm
 }
 
 FilterResults::FilterResults(const AssetView& asset, const View& view)
-    : view_(view), origins_(originsOf(asset)) {}
+    : view_(view), origins_(originsOf(asset)), mapCount_(asset.maps.size()) {}
 
 FilterResults::Origin FilterResults::originOf(const AssetView& asset, std::span<const Command> commands) {
     Origin origin;
@@ -94,6 +98,18 @@ std::map<std::size_t, FilterResults::Origin> FilterResults::originsOf(const Asse
     return origins;
 }
 
+/// Whether a single map changed, and all are where they were. Only then it is sure that the areas of the
+/// difference are those in which a filter's inputs changed: else its maps may be taken for those of another.
+bool FilterResults::isOneEdit(const Difference& difference) const {
+    std::size_t edited = 0;
+    for (std::size_t i = 0; i < difference.maps.size(); ++i) {
+        if (difference.maps[i].before != i)
+            return false;
+        edited += !isSame(difference.maps[i]);
+    }
+    return edited == 1 && difference.maps.size() == mapCount_;
+}
+
 void FilterResults::update(const AssetView& asset, const Difference& difference) {
     std::map<std::size_t, Origin> origins = originsOf(asset);
     if (difference.maps.empty())  // as in compat mode: nothing is known of what is drawn
@@ -103,21 +119,23 @@ void FilterResults::update(const AssetView& asset, const Difference& difference)
     for (const auto& [first, result] : results_)
         before.emplace(origins_.at(first).maps, first);
     const std::vector<PixelBox> boxes = changedPixels(view_, difference);
+    const bool oneEdit = isOneEdit(difference);
     pixels_ = 0;
     for (const auto& [first, origin] : origins) {
         std::vector<std::uint32_t> mapsBefore;
-        bool isSame = true;
+        bool areSame = true;
         for (const std::uint32_t map : origin.maps) {
             const MapChange change = map < difference.maps.size() ? difference.maps[map] : MapChange{};
             mapsBefore.push_back(change.before);
-            isSame &= change.squares.empty() && !change.paints;
+            areSame &= isSame(change);
         }
         const auto last = before.find(mapsBefore);
-        if (last == before.end() || origins_.at(last->second).records != origin.records)
+        if (last == before.end() || origins_.at(last->second).records != origin.records ||
+            !(areSame || oneEdit))
             continue;
         Result result = std::move(results_.at(last->second));
         before.erase(last);
-        if (!isSame)
+        if (!areSame)
             std::ranges::copy_if(boxes, std::back_inserter(result.stale),
                                  [&](const PixelBox& box) { return meet(box, result.box); });
         if (result.stale.size() > maxStale)
@@ -127,6 +145,7 @@ void FilterResults::update(const AssetView& asset, const Difference& difference)
     }
     origins_ = std::move(origins);
     results_ = std::move(results);
+    mapCount_ = asset.maps.size();
 }
 
 bool FilterResults::isOf(const View& view) const {

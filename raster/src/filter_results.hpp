@@ -29,8 +29,8 @@ public:
     /// Nothing is kept yet.
     FilterResults(const AssetView& asset, const View& view);
 
-    /// Goes on to the next asset; the last one may be gone. Results whose filters and inputs stayed are kept;
-    /// where inputs changed they are so but for what the difference says.
+    /// Goes on to the next asset; the last one may be gone. Results whose filters and inputs stayed are kept.
+    /// Where a single map changed, that of its filter is kept but for the areas of the difference.
     void update(const AssetView& asset, const Difference& difference);
 
     bool isOf(const View& view) const;
@@ -57,12 +57,14 @@ private:
 
     static Origin originOf(const AssetView& asset, std::span<const Command> commands);
     static std::map<std::size_t, Origin> originsOf(const AssetView& asset);
+    bool isOneEdit(const Difference& difference) const;
     static void copy(const Canvas& from, const PixelBox& box, Result& to);
 
     View view_;
     mutable std::mutex mutex_;               ///< guards what follows
     std::map<std::size_t, Origin> origins_;  ///< by the first command
     std::map<std::size_t, Result> results_;
+    std::size_t mapCount_ = 0;
     std::size_t pixels_ = 0;  ///< of the results
 };
 

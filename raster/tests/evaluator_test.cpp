@@ -219,8 +219,7 @@ TEST(Evaluator, KeepsWhatBoxesShowed) {
     Evaluator evaluator(first, {true});
     bytesOf(evaluator, view);
     Difference difference = nothing(next);
-    for (MapChange& map : difference.maps)
-        map.paints = true;
+    difference.maps[1].paints = true;  // the circle's
     difference.areas = {{20, 24, 50, 44}};
     evaluator.update(next, difference);
     Bytes bytes = before;
