@@ -129,7 +129,8 @@ std::vector<FilteredParts::Part> FilteredParts::partsOf(FilterPlan& plan, const 
     return parts;
 }
 
-void FilteredParts::update(const scene::Scene& scene, const Options& options) {
+void FilteredParts::update(const scene::Scene& scene, std::vector<const scene::Path*> paths,
+                           const Options& options) {
     const Excerpt whole = wholeOf(scene);
     std::vector<Part> before = std::exchange(parts_, {});  // lost if anything throws
     const bool isSameSize = scene_.width == scene.width && scene_.height == scene.height;
@@ -171,7 +172,10 @@ void FilteredParts::update(const scene::Scene& scene, const Options& options) {
     difference.pixelsAround = resampledPixels;
     difference.areas = isSameSize ? changedAreas(scene_, scene)
                                   : std::vector<asset::Area>{{0, 0, scene.width, scene.height}};
+    std::ranges::sort(paths);
+    paths_.clear();  // before the scene that holds them
     scene_ = scene;
+    paths_ = std::move(paths);
     parts_ = std::move(parts);
     result_ = std::move(result);
     report_ = std::move(report);

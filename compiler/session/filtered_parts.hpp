@@ -3,6 +3,7 @@
 /// pictures between the filters.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -20,9 +21,12 @@ public:
     /// Goes on to the next scene, which must be valid and have filters. Parts that stay the same are kept,
     /// and those that changed are edited. If it throws, the result stays, and the next scene is compiled
     /// anew.
-    void update(const scene::Scene& scene, const Options& options);
+    /// `paths`: of the scene, as far as they are gathered.
+    void update(const scene::Scene& scene, std::vector<const scene::Path*> paths, const Options& options);
 
     const Result& result() const { return result_; }
+    /// Whether a path was among those of the last scene, which is valid.
+    bool knows(const scene::Path& path) const { return std::ranges::binary_search(paths_, &path); }
     /// What the last update changed.
     const Edited& report() const { return report_; }
 
@@ -45,6 +49,7 @@ private:
 
     std::vector<Part> parts_;
     scene::Scene scene_;
+    std::vector<const scene::Path*> paths_;  ///< of the scene, which holds them; ascending
     Result result_;
     Edited report_;
 };

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "compiler/compile/settings.hpp"
 #include "compiler/filters/compile_filtered.hpp"
@@ -15,12 +16,18 @@ public:
     explicit State(const Options& options) : options_(options) { checkOptions(options_); }
 
     void update(const scene::Scene& scene) {
-        scene::validate(scene, [&](const scene::Path& path) { return plain_ && plain_->knows(path); });
+        std::vector<const scene::Path*> paths;
+        scene::validate(scene, [&](const scene::Path& path) {
+            if (plain_)
+                return plain_->knows(path);
+            paths.push_back(&path);
+            return filtered_ && filtered_->knows(path);
+        });
         const bool isFiltered = hasFilters(scene);
         if (options_.mode != asset::Mode::Exact || (isFiltered && options_.filterPixels > 0))
             follow(plain_, [&](EditedPicture& next) { next.compile(scene, wholeOf(scene), options_); });
         else if (isFiltered)
-            follow(filtered_, [&](FilteredParts& next) { next.update(scene, options_); });
+            follow(filtered_, [&](FilteredParts& next) { next.update(scene, std::move(paths), options_); });
         else
             follow(plain_, [&](EditedPicture& next) { next.update(scene, wholeOf(scene), options_); });
     }
