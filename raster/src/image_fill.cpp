@@ -51,6 +51,8 @@ int floorOf(float value) {
 /// goes on anyway. What is no number becomes -2.
 float bounded(float place, int size) { return place > -2 ? std::min(place, float(size) + 2) : -2.0f; }
 
+constexpr float perByte = 1.0f / 255;
+
 constexpr float maxOblong = 16, nearlyRound = 1.0f / 64;
 
 /// `m`: a pixel's sides in the image. Its singular values are the axes of the ellipse that it makes of a
@@ -163,18 +165,40 @@ inline Float4 Texels::operator()(int x, int y) const {
     return c * Float4{alpha, alpha, alpha, 1};
 }
 
-/// Between four texels. Premultiplied neighbours are summed, so that transparent pixels lend no colour.
-Float4 ImageReader::interpolated(const Texels& texels, vec2 place) {
-    const float px = bounded(place.x, texels.width) - 0.5f, py = bounded(place.y, texels.height) - 0.5f;
-    const int x = floorOf(px), y = floorOf(py);
-    const float right = px - float(x), below = py - float(y);
-    const auto column = [&](int at) { return (1 - below) * texels(at, y) + below * texels(at, y + 1); };
+void ImageReader::knowColumns(int x, int y, float below) {
+    const auto column = [&](int at) { return (1 - below) * texels_(at, y) + below * texels_(at, y + 1); };
     const bool sameRows = columns_.y == y && columns_.below == below;
     if (!sameRows || columns_.x != x) {
         const bool next = sameRows && columns_.x == x - 1;
         columns_ = {x, y, below, next ? columns_.right : column(x), column(x + 1)};
     }
-    return (1 - right) * columns_.left + right * columns_.right;
+}
+
+/// Between four texels. Premultiplied neighbours are summed, so that transparent pixels lend no colour.
+Float4 ImageReader::interpolated(vec2 place) {
+    const float px = bounded(place.x, texels_.width) - 0.5f, py = bounded(place.y, texels_.height) - 0.5f;
+    const int x = floorOf(px), y = floorOf(py);
+    knowColumns(x, y, py - float(y));
+    return columns_.left + (px - float(x)) * (columns_.right - columns_.left);
+}
+
+/// At places along a row of texels. Between two columns colours are straight.
+void ImageReader::interpolateRow(vec2 place, float change, std::span<Float4> colors) {
+    const float py = bounded(place.y, texels_.height) - 0.5f;
+    const int y = floorOf(py);
+    const auto placeOf = [&](std::size_t i) { return place.x + float(int(i)) * change; };
+    for (std::size_t i = 0; i < colors.size();) {
+        const float px = bounded(placeOf(i), texels_.width) - 0.5f;
+        const int x = floorOf(px);
+        knowColumns(x, y, py - float(y));
+        const Float4 left = perByte * columns_.left, slope = perByte * (columns_.right - columns_.left);
+        const float start = float(x) + 0.5f;
+        float right = px - float(x);
+        do {
+            colors[i++] = left + right * slope;
+            right = placeOf(i) - start;
+        } while (i < colors.size() && right >= 0 && right < 1);
+    }
 }
 
 inline Float4 KernelSums::column(int x) const {
@@ -207,11 +231,18 @@ Float4 KernelSums::at(vec2 place) {
     return sum;
 }
 
+void ImageReader::colors(vec2 first, vec2 step, std::span<Float4> colors) {
+    const vec2 change = mat2(matrix_[0], matrix_[1], matrix_[2], matrix_[3]) * step;
+    if (interpolates() && change.y == 0)
+        return interpolateRow(texels_.scale * applyMatrix(matrix_, first), texels_.scale * change.x, colors);
+    for (std::size_t i = 0; i < colors.size(); ++i)
+        colors[i] = color(first + float(int(i)) * step);
+}
+
 Float4 ImageReader::color(vec2 point) {
-    constexpr float perByte = 1.0f / 255;
     const vec2 p = texels_.scale * applyMatrix(matrix_, point);
-    if (kernel_.width == 1 && kernel_.cubic == 0 && probes_.side == 0)
-        return perByte * interpolated(texels_, p);
+    if (interpolates())
+        return perByte * interpolated(p);
     Float4 sum{};
     for (int i = -probes_.side; i <= probes_.side; ++i) {
         const vec2 place = p + float(i) * texels_.scale * probes_.step;

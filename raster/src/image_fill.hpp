@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <vector>
 
 #include <glm/mat2x2.hpp>
@@ -131,10 +132,15 @@ public:
     /// Premultiplied, at a point of the picture. Places one after the other along a row of texels are read
     /// fast.
     Float4 color(glm::vec2 point);
+    /// The same at points that are `step` apart, of which `first` is the first.
+    void colors(glm::vec2 first, glm::vec2 step, std::span<Float4> colors);
 
 private:
     static Texels texelsOf(const LeveledImage& image, unsigned level);
-    Float4 interpolated(const Texels& texels, glm::vec2 place);
+    bool interpolates() const { return kernel_.width == 1 && kernel_.cubic == 0 && probes_.side == 0; }
+    Float4 interpolated(glm::vec2 place);
+    void interpolateRow(glm::vec2 place, float change, std::span<Float4> colors);
+    void knowColumns(int x, int y, float below);
 
     std::array<float, 6> matrix_;
     Probes probes_;
