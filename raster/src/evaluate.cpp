@@ -21,6 +21,7 @@
 #include "raster/blend.hpp"
 #include "raster/filter/run_filter.hpp"
 #include "raster/src/canvas.hpp"
+#include "raster/src/command_stack.hpp"
 #include "raster/src/draw_map.hpp"
 #include "raster/src/filter_results.hpp"
 #include "raster/src/map_scanner.hpp"
@@ -240,25 +241,11 @@ private:
     }
     /// From the first, which pushes, to that which pops what it pushed.
     std::size_t countToPop(std::span<const Command> commands) const {
-        std::size_t pictures = 0, count = 0;
-        do {
-            const Command& command = commands[count++];
-            switch (command.kind) {
-                case Command::Kind::DrawMap:
-                case Command::Kind::FillMask:
-                case Command::Kind::ClipMask:
-                    break;
-                case Command::Kind::Push:
-                case Command::Kind::PushInput:
-                    ++pictures;
-                    break;
-                case Command::Kind::Filter:
-                    pictures -= paints_.asset().filters[command.map].pictures - 1;
-                    break;
-                default:
-                    --pictures;
-            }
-        } while (pictures > 0);
+        std::size_t count = 0;
+        int pictures = 0;
+        do
+            pictures += picturesPushed(paints_.asset(), commands[count++]);
+        while (pictures > 0);
         return count;
     }
 

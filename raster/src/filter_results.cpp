@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "asset/filters.hpp"
+#include "raster/src/command_stack.hpp"
 
 namespace vtm::asset {
 
@@ -47,26 +48,11 @@ bool isWithin(const PixelBox& inner, const PixelBox& outer) {
 }  // namespace
 
 std::span<const Command> filteredBy(const AssetView& asset, std::span<const Command> commands) {
-    std::size_t pictures = 0;
+    int pictures = 0;
     for (std::size_t i = 0;; ++i) {
-        const Command& command = commands[i];
-        switch (command.kind) {
-            case Command::Kind::DrawMap:
-            case Command::Kind::FillMask:
-            case Command::Kind::ClipMask:
-                break;
-            case Command::Kind::Push:
-            case Command::Kind::PushInput:
-                ++pictures;
-                break;
-            case Command::Kind::Filter:
-                pictures -= asset.filters[command.map].pictures - 1;
-                if (pictures == 1)
-                    return commands.first(i + 1);
-                break;
-            default:
-                --pictures;
-        }
+        pictures += picturesPushed(asset, commands[i]);
+        if (pictures == 1 && commands[i].kind == Command::Kind::Filter)
+            return commands.first(i + 1);
     }
 }
 
