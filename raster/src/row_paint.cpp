@@ -32,11 +32,10 @@ constexpr float evenWidth = 0.486f;
 
 /// More stops are left to others: making segments of them costs more than a few rows gain.
 constexpr std::size_t maxRowStops = 128;
-/// Periods of fewer pixels are left to others: most of their pixels meet stops, and rows fall into short
-/// runs.
-constexpr float leastPeriod = 16;
 /// The same of gradients over each other.
 constexpr std::size_t maxRowLayers = 16;
+/// And periods of fewer pixels: most of their pixels meet stops, and rows fall into short runs.
+constexpr float leastPeriod = 16;
 static_assert(longestRow <= 64);  // bits
 
 }  // namespace
