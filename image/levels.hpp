@@ -19,5 +19,7 @@ struct Level {
 /// mean of the pixels (x, y) with x >> l == i and y >> l == j, premultiplied: exactly, then rounded to a
 /// byte. So level l has ceil(width / 2^l) × ceil(height / 2^l) texels.
 std::vector<Level> levelsOf(const Bitmap& bitmap);
+/// How many these are.
+unsigned levelCount(const Bitmap& bitmap);
 
 }  // namespace vtm::image

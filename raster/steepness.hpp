@@ -26,8 +26,9 @@ struct PaintChange {
     /// what they change.
     float variation = 0;
     /// Of programs whose colour over a pixel is only about the mean, since layers are averaged one by one
-    /// and radial ramps as if the pixel were small beside them: of several layers the steepness, of a radial
-    /// gradient alone the variation. Others: 0.
+    /// and radial ramps as if the pixel were small beside them. The larger of the variation of radial
+    /// gradients, and of 2 √s, where s sums the products of two layers' steepness each: two of one steepness
+    /// have twice that. Others: 0.
     float roughness = 0;
     bool mayJump = false;  ///< anywhere, since it has blend modes of what changes
 

@@ -82,7 +82,7 @@ void move(Item& item, const Item& from, double x, double y) {
 struct Cost {
     double compiling = 0;  ///< the scene anew, in the same turn
     double session = 0;    ///< the session's update
-    double scanner = 0;    ///< the scanner's
+    double scanner = 0;    ///< the scanner's, or the evaluator's
     double boxes = 0;      ///< drawing what may look different
     std::size_t blocks = 0;
 
@@ -132,8 +132,11 @@ public:
     void show() {
         if (session.result().asset.filters.empty())
             scanner_.emplace(session.result().asset);
-        else
-            evaluator_.emplace(session.result().asset);
+        else {
+            whole_.emplace(session.result().asset);
+            evaluator_.emplace(session.result().asset, asset::EvaluatorOptions{.keepsFilterResults = true});
+            evaluator_->draw(view, target());
+        }
         redraw();
     }
     bool shows() const { return scanner_ || evaluator_; }
@@ -143,8 +146,8 @@ public:
         return spentTime([&] {
             if (scanner_)
                 scanner_->draw(view, target());
-            else if (evaluator_)
-                evaluator_->draw(view, target());
+            else if (whole_)
+                whole_->draw(view, target());
         });
     }
 
@@ -157,6 +160,8 @@ public:
             cost.scanner = spentTime([&] { bringToSession(); });
             cost.boxes = spentTime([&] { drawChanges(); });
         }
+        if (whole_)
+            whole_->update(session.result().asset, session.difference());
         return cost;
     }
 
@@ -166,12 +171,11 @@ public:
 
 private:
     asset::ByteTarget target() { return {bytes_.data(), rowBytes_}; }
-    /// Evaluators are made anew.
     void bringToSession() {
         if (scanner_)
             scanner_->update(session.result().asset, session.difference());
         else
-            evaluator_.emplace(session.result().asset);
+            evaluator_->update(session.result().asset, session.difference());
     }
     void drawChanges() {
         for (const asset::PixelBox& box : asset::changedPixels(view, session.difference()))
@@ -184,7 +188,9 @@ private:
     std::size_t rowBytes_;
     std::vector<std::uint8_t> bytes_;
     std::optional<asset::Scanner> scanner_;
-    std::optional<asset::Evaluator> evaluator_;  ///< where there are filters
+    // Where there are filters. Programs that show edits draw the whole once: a redraw must not bring up to
+    // date what is kept for boxes.
+    std::optional<asset::Evaluator> evaluator_, whole_;
 };
 
 /// There and back for each of the items. Copying scenes is not counted: it is for the caller to do or not.
@@ -475,8 +481,9 @@ std::string textOf(int side) {
         "A session per file ([session.md](../../docs/session.md)), shown at {} pixels. {} of the items that "
         "lie in the picture, taken at random, are recoloured and put back, and moved by 1/{:.0f} of the "
         "picture's side and put back. CPU milliseconds (user and system, all threads), medians. *recolour, "
-        "move*: an edit until it is seen, that is the updates of session and scanner (their part in "
-        "brackets) and drawing the boxes that changed; then the worst. *redraw*: the same scanner draws "
+        "move*: an edit until it is seen, that is the updates of session and scanner, or evaluator where "
+        "there are filters (their part in brackets), and drawing the boxes that changed; then the worst. "
+        "*redraw*: the same scanner draws "
         "everything. *The peers*: how many times as long as a move that is shown each of them takes to draw "
         "the whole picture from what it has prepared, item by item, in turns; ≠ marks a picture that "
         "differs from ours by more than {} of 255 (rms of means over 64ths of the side). *Percentages*: the "

@@ -18,9 +18,10 @@ constexpr float mostHeight = 4;
 constexpr std::size_t slabSteps = 500;
 
 /// A strip in which sweeping takes more, or more a row, goes on in level steps, and so it does where a slab
-/// would take more and cannot be made thinner, or twice as much; so does one that remembers too many
-/// programs.
-constexpr std::size_t mostInStrip = 1u << 23, mostInRow = 1u << 20, mostInSlab = 1u << 23;
+/// would take more and cannot be made thinner (or twice as much, unless it has many short chains, and in the
+/// thinnest slabs all of it takes less); so does one that remembers too many programs.
+constexpr std::size_t mostInStrip = 1u << 23, mostInRow = 1u << 20, mostInSlab = 1u << 23,
+                      mostInThinnest = 1u << 21;
 /// So does one that begins with more chains, of so many layers that some may hide others: a row could look at
 /// them only a few times. Chains of few layers may not cross at all.
 constexpr std::size_t mostAtOnce = 1u << 17, manyLayers = 64;
@@ -86,8 +87,7 @@ void BandSweep::run(int band, bool begins, std::vector<asset::Chord>& chords) {
         if (state_.remembersMuch() || stripSteps_ > mostInStrip + std::size_t(y - stripTop_) * mostInRow)
             return goOnLines(chains, y, bottom);
         if (!slab({y, y + height_})) {
-            // In half of the height it takes a quarter.
-            if (height_ < 2 * thinnest_ || wouldTake_ > 2 * mostInSlab)
+            if (!mayBeThinner(y))
                 return goOnLines(chains, y, bottom);
             height_ *= 0.5f;
             stripSteps_ += active_.size() + events_.size();
@@ -106,6 +106,20 @@ void BandSweep::run(int band, bool begins, std::vector<asset::Chord>& chords) {
         a->from = bottom;
     }
     moveState(0);
+}
+
+/// Whether a slab from y on that would take too much is to be halved. In half of the height it takes a
+/// quarter, and there are twice as many looks: that is much less where most of the chains are short.
+bool BandSweep::mayBeThinner(float y) const {
+    if (height_ < 2 * thinnest_)
+        return false;
+    if (wouldTake_ <= 2 * mostInSlab)
+        return true;
+    const auto endsBelow = [&](std::uint32_t chain) { return chains_[chain].bottom > y + height_; };
+    const std::size_t chains = active_.size() + beginning_.size(),
+                      longer = active_.size() + std::size_t(std::ranges::count_if(beginning_, endsBelow));
+    const double slabs = double(height_ / thinnest_);
+    return 4 * longer < chains && double(wouldTake_) / slabs + double(chains) * slabs < mostInThinnest;
 }
 
 /// Whether many edges of those that are seen cross within a row.

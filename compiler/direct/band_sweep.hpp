@@ -110,6 +110,7 @@ private:
     bool nextEdge(Active& active) const;
     void begin(std::span<const std::uint32_t> chains, float top);
     bool slab(Slab slab);
+    bool mayBeThinner(float y) const;
     bool isTangled(float y);
     void leave(float y);
     void goOnLines(std::span<const std::uint32_t> chains, float top, float bottom);

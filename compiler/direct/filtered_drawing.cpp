@@ -10,13 +10,6 @@
 namespace vtm::compiler {
 namespace {
 
-/// Stands for a map until it is drawn.
-struct KeptPart {
-    scene::Scene scene;
-    Excerpt excerpt;
-    Options options;
-};
-
 /// An asset of one map that holds nothing.
 Result standIn(const Excerpt& excerpt) {
     Result result;
@@ -34,7 +27,7 @@ Result standIn(const Excerpt& excerpt) {
 class PartDrawer : public asset::MapDrawer {
 public:
     /// `commands` must outlive it.
-    PartDrawer(std::vector<KeptPart> parts, const Result& commands)
+    PartDrawer(std::vector<PartPicture> parts, const Result& commands)
         : parts_(std::move(parts)), asset_(commands.asset), warnings_(commands.warnings) {}
 
     void add(const asset::Command& command, const asset::View& view, const asset::PixelsToAddTo& pixels,
@@ -58,7 +51,7 @@ private:
                                                   const asset::View& view) const {
         if (!isComplete_)
             return nullptr;
-        const KeptPart& part = parts_[command.map];
+        const PartPicture& part = parts_[command.map];
         const asset::Map& map = asset_.maps[command.map];
         const asset::View ofPart{view.width, view.height,
                                  scene::compose(view.toPixels, scene::translation(map.x, map.y))};
@@ -71,7 +64,7 @@ private:
         return drawing;
     }
 
-    const std::vector<KeptPart> parts_;  ///< by map
+    const std::vector<PartPicture> parts_;  ///< by map
     const asset::Asset& asset_;
     // Commands are drawn one after the other.
     mutable bool isComplete_ = true;
@@ -84,15 +77,17 @@ std::unique_ptr<const FilteredDrawing> FilteredDrawing::make(const scene::Scene&
                                                              const Excerpt& excerpt, const asset::View& view,
                                                              Options options) {
     options.filterPixels = 0;
-    std::vector<KeptPart> parts;
     const auto compiled = [](const scene::Scene& part, const Excerpt& of, const Options& how) {
         return compileExcerpt(part, of, how);
     };
-    const auto kept = [&](const scene::Scene& part, const Excerpt& of, const Options& how) {
-        parts.push_back({part, of, how});
-        return standIn(of);
-    };
-    const Result commands = compileFiltered(scene, excerpt, options, compiled, kept);
+    FilterPlan plan = planFiltered(scene, excerpt, options, compiled);
+    std::vector<PartPicture> parts;
+    for (const PlainPart& part : plan.parts)
+        parts.push_back(pictureOf(part, excerpt, options));
+    Result last;
+    const Result commands =
+        joinParts(std::move(plan.commands), plan.parts, excerpt,
+                  [&](std::size_t part) -> const Result& { return last = standIn(parts[part].excerpt); });
     PartDrawer drawer(std::move(parts), commands);
     asset::CommandPicture picture(commands.asset, view, drawer);
     if (!drawer.isComplete())

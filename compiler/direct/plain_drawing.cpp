@@ -19,6 +19,7 @@
 #include "compiler/lower/lower.hpp"
 #include "compiler/patterns/pattern_images.hpp"
 #include "raster/chord_scanner.hpp"
+#include "raster/drawing_threads.hpp"
 
 namespace vtm::compiler {
 namespace {
@@ -155,7 +156,7 @@ struct PlainDrawing::Impl {
         const limits::Stage stage("drawing");
         tbb::enumerable_thread_specific<ThreadState> workers(
             [&] { return ThreadState(picture, chains, bitmaps, images, view); });
-        const int threads = tbb::this_task_arena::max_concurrency();
+        const int threads = isWorthThreads() ? tbb::this_task_arena::max_concurrency() : 1;
         const int strips = (end - first + stripBands - 1) / stripBands;
         const int grain = stripBands * std::max(1, threads == 1 ? strips : strips / (4 * threads));
         tbb::parallel_for(0, (end - first + grain - 1) / grain, [&, holding = limits::current()](int task) {
@@ -163,6 +164,13 @@ struct PlainDrawing::Impl {
             const int from = first + task * grain;
             drawSome(workers.local(), from, std::min(from + grain, end), drawBands);
         });
+    }
+
+    bool isWorthThreads() const {
+        constexpr std::size_t chainInBand = 2000;  // pixels take as long, and more where chains are crowded
+        const auto isProgram = [](const Source& source) { return source.op != asset::Op::Solid; };
+        return asset::areThreadsWorthIt(view, std::ranges::any_of(picture.sources, isProgram),
+                                        chainInBand * chains.inBands());
     }
 
     template <class Draw>

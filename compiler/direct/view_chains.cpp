@@ -376,11 +376,16 @@ std::vector<std::uint64_t> ViewChains::sortedByTop(std::size_t bandCount, const 
     std::vector<std::uint32_t> next(firsts.begin(), firsts.end() - 1);
     for (std::uint32_t c = 0; c < chains_.size(); ++c)
         byTop[next[bandOf(chains_[c].top)]++] = std::uint64_t(ascending(chains_[c].top)) << 32 | c;
-    constexpr std::size_t bandsAtOnce = 8;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bandCount, bandsAtOnce), [&](const auto& bands) {
-        for (std::size_t band = bands.begin(); band < bands.end(); ++band)
+    const auto sortBands = [&](std::size_t first, std::size_t end) {
+        for (std::size_t band = first; band < end; ++band)
             std::sort(byTop.begin() + firsts[band], byTop.begin() + firsts[band + 1]);
-    });
+    };
+    constexpr std::size_t manyChains = 1u << 13, bandsAtOnce = 8;  // fewer are not worth threads
+    if (chains_.size() < manyChains)
+        sortBands(0, bandCount);
+    else
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bandCount, bandsAtOnce),
+                          [&](const auto& bands) { sortBands(bands.begin(), bands.end()); });
     return byTop;
 }
 

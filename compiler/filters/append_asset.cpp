@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <set>
+#include <span>
 #include <string>
+#include <utility>
 
 #include <vtm/compiler/compile.hpp>
 #include "asset/records.hpp"
@@ -57,8 +58,8 @@ private:
 
 class Appending {
 public:
-    Appending(Asset part, glm::dvec2 by, Asset& asset)
-        : part_(std::move(part)), by_(by), asset_(asset), base_(asset) {}
+    Appending(const Asset& part, glm::dvec2 by, Asset& asset)
+        : part_(part), by_(by), asset_(asset), base_(asset) {}
 
     void run() {
         appendPaints();
@@ -85,14 +86,13 @@ private:
     }
 
     void appendTrees() {
-        for (asset::Node node : part_.nodes) {
-            std::ranges::transform(node.children, node.children.begin(), [&](Entry e) { return moved(e); });
-            asset_.nodes.push_back(node);
-        }
-        for (asset::Leaf leaf : part_.leaves) {
+        append(asset_.nodes, part_.nodes);
+        for (asset::Node& node : std::span(asset_.nodes).subspan(base_.nodes))
+            for (Entry& child : node.children)
+                child = moved(child);
+        append(asset_.leaves, part_.leaves);
+        for (asset::Leaf& leaf : std::span(asset_.leaves).subspan(base_.leaves))
             leaf.firstPiece += base_.pieces;
-            asset_.leaves.push_back(leaf);
-        }
         append(asset_.pieces, part_.pieces);
         std::vector<bool> isPlaced(part_.maps.size());
         for (const asset::Symbol& symbol : part_.symbols)
@@ -141,26 +141,31 @@ private:
             if (known == asset_.materials.end())
                 asset_.materials.push_back(material);
         }
-        std::set<std::uint32_t> programs, records;
-        for (Texel& paint : part_.paints) {
-            if (!asset::isProgram(paint))
-                continue;
-            if (programs.insert(paint[0]).second)
-                for (std::uint32_t i = paint[0]; i < paint[0] + paint[1]; ++i)
-                    moveInstruction(i, records);
-            paint[0] += base_.data;
-        }
         append(asset_.paints, part_.paints);
         append(asset_.data, part_.data);
-        std::ranges::move(part_.images, std::back_inserter(asset_.images));
+        append(asset_.images, part_.images);
+        std::vector<bool> isMoved(part_.data.size() + 1);  // programs and records, by where they begin
+        for (Texel& paint : std::span(asset_.paints).subspan(base_.paints)) {
+            if (!asset::isProgram(paint))
+                continue;
+            const std::uint32_t first = paint[0];
+            paint[0] += base_.data;
+            if (isMoved[first])
+                continue;
+            isMoved[first] = true;
+            for (std::uint32_t i = paint[0]; i < paint[0] + paint[1]; ++i)
+                moveInstruction(i, isMoved);
+        }
     }
 
-    /// `records`: those that have been moved.
-    void moveInstruction(std::uint32_t texel, std::set<std::uint32_t>& records) {
-        auto in = asset::recordAt<asset::Instruction>(part_.data, texel);
+    /// At a texel of the asset.
+    void moveInstruction(std::uint32_t texel, std::vector<bool>& isMoved) {
+        auto in = asset::recordAt<asset::Instruction>(asset_.data, texel);
         if (in.op < asset::Op::Solid)
             return;
-        if (in.op != asset::Op::Solid && records.insert(in.argument).second) {
+        const std::uint32_t record = std::exchange(in.argument, in.argument + base_.data);
+        if (in.op != asset::Op::Solid && !isMoved[record]) {
+            isMoved[record] = true;
             if (in.op == asset::Op::Image)
                 moveRecord<asset::ImageFill>(in.argument,
                                              [&](asset::ImageFill& fill) { fill.image += base_.images; });
@@ -171,20 +176,19 @@ private:
             else
                 moveRecord<asset::Gradient>(in.argument, [](asset::Gradient&) {});
         }
-        in.argument += base_.data;
-        storeAt(part_.data, texel, in);
+        storeAt(asset_.data, texel, in);
     }
 
     /// Its matrix is of places of the picture.
     template <class Record, class Change>
     void moveRecord(std::uint32_t texel, Change change) {
-        auto record = asset::recordAt<Record>(part_.data, texel);
+        auto record = asset::recordAt<Record>(asset_.data, texel);
         auto& m = record.matrix;
         for (std::size_t row = 0; row < 2; ++row)
             m[4 + row] =
                 static_cast<float>(double(m[4 + row]) - double(m[row]) * by_.x - double(m[2 + row]) * by_.y);
         change(record);
-        storeAt(part_.data, texel, record);
+        storeAt(asset_.data, texel, record);
     }
 
     // ---- Filters and commands ----
@@ -228,7 +232,7 @@ private:
         }
     }
 
-    Asset part_;
+    const Asset& part_;
     const glm::dvec2 by_;
     Asset& asset_;
     const Bases base_;
@@ -237,8 +241,8 @@ private:
 
 }  // namespace
 
-void appendAsset(asset::Asset part, glm::dvec2 by, asset::Asset& asset) {
-    Appending(std::move(part), by, asset).run();
+void appendAsset(const asset::Asset& part, glm::dvec2 by, asset::Asset& asset) {
+    Appending(part, by, asset).run();
 }
 
 }  // namespace vtm::compiler

@@ -11,6 +11,6 @@
 namespace vtm::compiler {
 
 /// Appends what `part` holds, moved by `by`, and its commands. They draw it over what is there.
-void appendAsset(asset::Asset part, glm::dvec2 by, asset::Asset& asset);
+void appendAsset(const asset::Asset& part, glm::dvec2 by, asset::Asset& asset);
 
 }  // namespace vtm::compiler

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string>
 
 #include <vtm/raster/evaluate.hpp>
@@ -30,16 +31,24 @@ constexpr double margin = 1.0 / 64;
 /// image at most.
 constexpr double usualBakedPixels = 2048, maxBakedSide = 8192;
 
-class FilteredCompiler {
+void warn(std::string text, Result& result) {
+    if (std::ranges::find(result.warnings, text) == result.warnings.end())
+        result.warnings.push_back(std::move(text));
+}
+
+void checkCommands(std::size_t count) {
+    if (count > asset::maxCommands)
+        throw LimitError("the picture needs more than " + std::to_string(asset::maxCommands) + " commands");
+}
+
+class Planner {
 public:
-    FilteredCompiler(const Excerpt& excerpt, const Options& options, const CompilePlain& compilePlain,
-                     const CompilePlain& makePicture)
+    Planner(const Excerpt& excerpt, const Options& options, const CompilePlain& compilePlain)
         : excerpt_(excerpt),
           options_(options),
           compilePlain_(compilePlain),
-          makePicture_(makePicture),
           frame_{{0, 0}, {excerpt.width, excerpt.height}} {
-        asset::Asset& asset = result_.asset;
+        asset::Asset& asset = plan_.commands.asset;
         asset.width = excerpt.width;
         asset.height = excerpt.height;
         asset.mode = options.mode;
@@ -47,10 +56,10 @@ public:
         asset.finestPixel = 0;
     }
 
-    Result run(const Group& root) {
+    FilterPlan run(const Group& root) {
         Picture ground{frame_, true};
         content(root, ground);
-        return std::move(result_);
+        return std::move(plan_);
     }
 
     /// Without filters: what they would make is drawn as images.
@@ -90,10 +99,8 @@ private:
     // ---- Commands ----
 
     Command& emit(Command::Kind kind) {
-        auto& commands = result_.asset.commands;
-        if (commands.size() >= asset::maxCommands)
-            throw LimitError("the picture needs more than " + std::to_string(asset::maxCommands) +
-                             " commands");
+        auto& commands = plan_.commands.asset.commands;
+        checkCommands(commands.size() + 1);
         commands.emplace_back().kind = kind;
         return commands.back();
     }
@@ -143,11 +150,6 @@ private:
         return unsigned(3 + inputs);
     }
 
-    void warn(std::string text) {
-        if (std::ranges::find(result_.warnings, text) == result_.warnings.end())
-            result_.warnings.push_back(std::move(text));
-    }
-
     /// What a group shows by itself.
     void content(const Group& g, Picture& on) {
         if (isPlain(g))
@@ -159,7 +161,8 @@ private:
     void group(const Group& g, Picture& on) {
         if (depth_ + picturesOf(g) > asset::maxPictures) {
             warn("groups with filters are nested too deep; what would need more than " +
-                 std::to_string(asset::maxPictures) + " pictures at once is left out");
+                     std::to_string(asset::maxPictures) + " pictures at once is left out",
+                 plan_.commands);
             return;
         }
         push();
@@ -173,7 +176,7 @@ private:
         if (g.mask)
             mask(*g.mask, inner);
         pop(Command::Kind::Pop);
-        Command& last = result_.asset.commands.back();
+        Command& last = plan_.commands.asset.commands.back();
         last.opacity = g.opacity;
         last.blend = static_cast<asset::Blend>(g.blend);
         on.isBlank = false;
@@ -181,7 +184,7 @@ private:
 
     /// What a filter makes of nodes, on a blank picture.
     void filter(const scene::Filter& f, const NodeList& nodes, Picture& on) {
-        const std::uint32_t index = appendFilter(f, excerpt_.fromScene, result_.asset);
+        const std::uint32_t index = appendFilter(f, excerpt_.fromScene, plan_.commands.asset);
         push(Command::Kind::PushInput, index);
         Picture source{readBy(f, on.seen)};
         children(nodes, source);
@@ -261,65 +264,32 @@ private:
     void draw(NodeList nodes, Picture& on) {
         if (nodes.empty())
             return;
-        scene::Scene part;
-        part.width = part.height = 1;  // the excerpt says what is drawn
-        part.root.children = std::move(nodes);
-        const std::optional<Box> box = boxOf(part, on.seen);
-        if (!box)
+        PlainPart part{std::move(nodes), {}, on.seen, {}};
+        part.content = boundsOf(part.nodes, excerpt_.fromScene).intersection(on.seen);
+        const std::optional<Box> frame = frameOf(part.content, on.seen);
+        if (!frame)
             return;
-        Excerpt excerpt = excerpt_;
-        excerpt.fromScene[2] -= box->min;
-        excerpt.width = box->width();
-        excerpt.height = box->height();
-        Options options = options_;
-        const double longer = std::max(excerpt.width, excerpt.height);
-        options.tolerance =
-            std::clamp(options_.tolerance * std::max(excerpt_.width, excerpt_.height) / longer,
-                       std::ldexp(1.0, -26), std::ldexp(1.0, -6));
-        Result drawn = makePicture_(part, excerpt, options);
-        take(std::move(drawn), box->min, on);
-    }
-
-    /// Around what is seen of a part, in the space of the excerpt; nothing if that is nothing.
-    std::optional<Box> boxOf(const scene::Scene& part, const Box& seen) const {
-        Box box = boundsOf(part.root.children, excerpt_.fromScene).intersection(seen);
-        if (box.empty() || !std::isfinite(box.width()) || !std::isfinite(box.height()))
-            return std::nullopt;
-        // Some room, so that no outline lies on the border of its map.
-        const scene::Point room(std::max({box.width(), box.height(), 64 * scene::minSide}) / 64);
-        box = Box{box.min - room, box.max + room}.intersection(seen);
-        const bool isPicture = std::max(box.width(), box.height()) <= scene::maxSide &&
-                               std::min(box.width(), box.height()) >= scene::minSide;
-        return isPicture ? std::optional(box) : std::nullopt;
-    }
-
-    void take(Result drawn, scene::Point by, Picture& on) {
+        part.frame = *frame;
         const bool onTop = mode() == asset::Mode::Compat || on.isBlank;
         if (!onTop)
             push();
-        const double longer = std::max(drawn.asset.width, drawn.asset.height);
-        result_.provenError = std::max(
-            result_.provenError, drawn.provenError * longer / std::max(excerpt_.width, excerpt_.height));
-        result_.asset.finestPixel = std::max(*result_.asset.finestPixel, drawn.asset.finestPixel.value_or(0));
-        result_.asset.fallbackLeaves += drawn.asset.fallbackLeaves;
-        result_.sampledStrokes += drawn.sampledStrokes;
-        for (const UnprovenSquare& square : drawn.unproven)
-            result_.unproven.push_back({square.x + by.x, square.y + by.y, square.side});
-        for (std::string& warning : drawn.warnings)
-            warn(std::move(warning));
-        addTimes(drawn.stages);
-        appendAsset(std::move(drawn.asset), by, result_.asset);
+        emit(Command::Kind::DrawMap).map = static_cast<std::uint32_t>(plan_.parts.size());
         if (!onTop)
             pop(Command::Kind::Pop);
+        plan_.parts.push_back(std::move(part));
         on.isBlank = false;
     }
 
-    void addTimes(const std::vector<StageTime>& stages) {
-        if (result_.stages.empty())
-            result_.stages = stages;
-        else
-            for (std::size_t i = 0; i < stages.size(); ++i)
-                result_.stages[i].milliseconds += stages[i].milliseconds;
+    /// Nothing if that is no picture.
+    static std::optional<Box> frameOf(const Box& content, const Box& seen) {
+        if (content.empty() || !std::isfinite(content.width()) || !std::isfinite(content.height()))
+            return std::nullopt;
+        // Some room, so that no outline lies on the border of its map.
+        const scene::Point room(std::max({content.width(), content.height(), 64 * scene::minSide}) / 64);
+        const Box frame = Box{content.min - room, content.max + room}.intersection(seen);
+        const bool isPicture = std::max(frame.width(), frame.height()) <= scene::maxSide &&
+                               std::min(frame.width(), frame.height()) >= scene::minSide;
+        return isPicture ? std::optional(frame) : std::nullopt;
     }
 
     // ---- Where a filter cannot be a command ----
@@ -390,26 +360,97 @@ private:
     const Excerpt& excerpt_;
     const Options& options_;
     const CompilePlain& compilePlain_;
-    const CompilePlain& makePicture_;  ///< of what commands draw
-    Result result_;
+    FilterPlan plan_;
     FilterFinder finder_;
     const Box frame_;
     unsigned depth_ = 1;  ///< pictures on the stack
+};
+
+/// Puts the pictures of parts where commands draw them.
+class Joiner {
+public:
+    Joiner(Result commands, std::span<const PlainPart> parts, const Excerpt& excerpt)
+        : commands_(std::exchange(commands.asset.commands, {})),
+          parts_(parts),
+          longerSide_(std::max(excerpt.width, excerpt.height)),
+          result_(std::move(commands)) {}
+
+    Result run(const std::function<const Result&(std::size_t)>& pictureOf) {
+        for (const Command& command : commands_)
+            if (command.kind == Command::Kind::DrawMap)
+                add(pictureOf(command.map), parts_[command.map].frame.min);
+            else
+                result_.asset.commands.push_back(command);
+        checkCommands(result_.asset.commands.size());
+        return std::move(result_);
+    }
+
+private:
+    void add(const Result& drawn, scene::Point by) {
+        const double longer = std::max(drawn.asset.width, drawn.asset.height);
+        result_.provenError = std::max(result_.provenError, drawn.provenError * longer / longerSide_);
+        result_.asset.finestPixel = std::max(*result_.asset.finestPixel, drawn.asset.finestPixel.value_or(0));
+        result_.asset.fallbackLeaves += drawn.asset.fallbackLeaves;
+        result_.sampledStrokes += drawn.sampledStrokes;
+        for (const UnprovenSquare& square : drawn.unproven)
+            result_.unproven.push_back({square.x + by.x, square.y + by.y, square.side});
+        for (const std::string& warning : drawn.warnings)
+            warn(warning, result_);
+        addTimes(drawn.stages);
+        appendAsset(drawn.asset, by, result_.asset);
+    }
+
+    void addTimes(const std::vector<StageTime>& stages) {
+        if (result_.stages.empty())
+            result_.stages = stages;
+        else
+            for (std::size_t i = 0; i < stages.size(); ++i)
+                result_.stages[i].milliseconds += stages[i].milliseconds;
+    }
+
+    const std::vector<Command> commands_;
+    const std::span<const PlainPart> parts_;
+    const double longerSide_;  ///< of the excerpt
+    Result result_;
 };
 
 }  // namespace
 
 bool hasFilters(const scene::Scene& scene) { return FilterFinder().isIn(scene.root); }
 
-Result compileFiltered(const scene::Scene& scene, const Excerpt& excerpt, const Options& options,
-                       const CompilePlain& compilePlain) {
-    return compileFiltered(scene, excerpt, options, compilePlain, compilePlain);
+FilterPlan planFiltered(const scene::Scene& scene, const Excerpt& excerpt, const Options& options,
+                        const CompilePlain& compilePlain) {
+    return Planner(excerpt, options, compilePlain).run(scene.root);
+}
+
+PartPicture pictureOf(const PlainPart& part, const Excerpt& excerpt, const Options& options) {
+    PartPicture picture{{1, 1, {}}, excerpt, options};
+    picture.scene.root.children = part.nodes;
+    picture.excerpt.fromScene[2] -= part.frame.min;
+    picture.excerpt.width = part.frame.width();
+    picture.excerpt.height = part.frame.height();
+    const double longer = std::max(picture.excerpt.width, picture.excerpt.height);
+    picture.options.tolerance =
+        std::clamp(options.tolerance * std::max(excerpt.width, excerpt.height) / longer, std::ldexp(1.0, -26),
+                   std::ldexp(1.0, -6));
+    return picture;
+}
+
+Result joinParts(Result commands, std::span<const PlainPart> parts, const Excerpt& excerpt,
+                 const std::function<const Result&(std::size_t)>& pictureOf) {
+    return Joiner(std::move(commands), parts, excerpt).run(pictureOf);
 }
 
 Result compileFiltered(const scene::Scene& scene, const Excerpt& excerpt, const Options& options,
-                       const CompilePlain& compilePlain, const CompilePlain& makePicture) {
-    FilteredCompiler compiler(excerpt, options, compilePlain, makePicture);
-    return options.filterPixels > 0 ? compiler.runBaked(scene.root) : compiler.run(scene.root);
+                       const CompilePlain& compilePlain) {
+    if (options.filterPixels > 0)
+        return Planner(excerpt, options, compilePlain).runBaked(scene.root);
+    FilterPlan plan = planFiltered(scene, excerpt, options, compilePlain);
+    Result last;
+    return joinParts(std::move(plan.commands), plan.parts, excerpt, [&](std::size_t part) -> const Result& {
+        const PartPicture picture = pictureOf(plan.parts[part], excerpt, options);
+        return last = compilePlain(picture.scene, picture.excerpt, picture.options);
+    });
 }
 
 }  // namespace vtm::compiler

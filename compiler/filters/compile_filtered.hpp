@@ -7,10 +7,14 @@
 /// a picture of their own, filtered, clipped, masked and blended with what is below.
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <span>
+#include <vector>
 
 #include <vtm/compiler/compile.hpp>
 #include "compiler/lower/lower.hpp"
+#include "geometry/box.hpp"
 
 namespace vtm::compiler {
 
@@ -23,9 +27,33 @@ using CompilePlain = std::function<Result(const scene::Scene&, const Excerpt&, c
 /// As compile. The scene must be valid. With Options::filterPixels the picture has no filters but images.
 Result compileFiltered(const scene::Scene& scene, const Excerpt& excerpt, const Options& options,
                        const CompilePlain& compilePlain);
-/// The same, with the pictures that commands draw made otherwise: by `makePicture`, whose results have a map
-/// and a command to draw it.
-Result compileFiltered(const scene::Scene& scene, const Excerpt& excerpt, const Options& options,
-                       const CompilePlain& compilePlain, const CompilePlain& makePicture);
+
+/// A picture without filters that commands draw.
+struct PlainPart {
+    scene::NodeList nodes;
+    geometry::Box content;  ///< around what is seen of them; all boxes are in the space of the excerpt
+    geometry::Box seen;     ///< what of the picture that it is drawn on is needed
+    geometry::Box frame;  ///< what is compiled: the content and some room around it, but no more than is seen
+};
+
+/// A scene with filters as commands.
+struct FilterPlan {
+    Result commands;  ///< those of the kind DrawMap draw a part: their maps are numbers of parts
+    std::vector<PlainPart> parts;
+};
+
+/// The scene must be valid. `compilePlain`: for what is filtered in patterns and selections.
+FilterPlan planFiltered(const scene::Scene& scene, const Excerpt& excerpt, const Options& options,
+                        const CompilePlain& compilePlain);
+/// What is compiled of a part: its frame of the excerpt, as exactly as that.
+struct PartPicture {
+    scene::Scene scene;  ///< the excerpt says what of it is drawn
+    Excerpt excerpt;
+    Options options;
+};
+PartPicture pictureOf(const PlainPart& part, const Excerpt& excerpt, const Options& options);
+/// The picture of a plan's commands. `pictureOf` gives the picture of each part, once, in their order.
+Result joinParts(Result commands, std::span<const PlainPart> parts, const Excerpt& excerpt,
+                 const std::function<const Result&(std::size_t part)>& pictureOf);
 
 }  // namespace vtm::compiler

@@ -338,6 +338,7 @@ private:
 
     void patternImage(const scene::Item& item, const scene::Pattern& pattern, const Affine& toPicture,
                       const PatternFill& fill, std::uint32_t into) {
+        picture_.lacksImages |= !images_;
         const auto image = images_ ? images_->paint(pattern, toPicture, fill.seen, shown_) : std::nullopt;
         const auto source = image ? paints_.add(*image, scene::identity) : std::nullopt;
         if (!source)

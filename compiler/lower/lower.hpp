@@ -24,6 +24,8 @@ struct Excerpt {
     double width = 0, height = 0;
     /// A small part of the scene: strokes are cut down to what is near, and gradients to the colours in it.
     bool isPart = false;
+
+    bool operator==(const Excerpt&) const = default;
 };
 /// The scene's box from min to max as a picture of so many pixels, whose units they are.
 inline Excerpt inPixels(scene::Point min, scene::Point max, scene::Point pixels) {

@@ -83,6 +83,7 @@ struct LoweredScene {
     std::vector<std::uint32_t> itemOfLayer;  ///< noIndex: a clip's layer
     std::size_t sampledStrokes = 0;          ///< Result::sampledStrokes
     std::vector<std::string> warnings;       ///< what a limit removed
+    bool lacksImages = false;  ///< patterns of too many tiles are left out, which PatternImages would draw
 };
 
 /// Copies, for the asset.

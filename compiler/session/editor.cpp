@@ -87,12 +87,12 @@ public:
         const auto start = Clock::now();
         kept_.cache.put(std::move(kept_.picture.outlines));
         picture_ =
-            lower(scene, wholeOf(scene), kept_.lattice, treeOptions_.budget, Sharing::None, &kept_.cache);
+            lower(scene, kept_.excerpt, kept_.lattice, treeOptions_.budget, Sharing::None, &kept_.cache);
         const auto lowered = Clock::now();
         Update update;
         update.anew = !kept_.partition;
         update.outlines = kept_.cache.added();
-        if (!update.anew && 2 * update.outlines > kept_.cache.used())
+        if (picture_.lacksImages || (!update.anew && 2 * update.outlines > kept_.cache.used()))
             return std::nullopt;
         compare();
         if (update.anew)
@@ -104,7 +104,7 @@ public:
         update.paints = kept_.paints.update(picture_, kept_.names, repainted_);
         difference_.everything = update.anew;
         if (update.anew)
-            difference_.areas = {wholeArea(scene)};
+            difference_.areas = {{0, 0, kept_.excerpt.width, kept_.excerpt.height}};
         else
             findAreas();
         encode(update, start, lowered);
@@ -113,6 +113,8 @@ public:
     }
 
 private:
+    double longerSide() const { return std::max(kept_.excerpt.width, kept_.excerpt.height); }
+
     /// Finds what differs from the last picture.
     void compare() {
         changes_ = matchLayers(kept_.picture, picture_);
@@ -180,7 +182,7 @@ private:
             for (const Partition::Block& block : kept_.partition->blocks())
                 if (std::ranges::any_of(block.paints, [&](PaintId id) { return changed[id] != 0; }))
                     area.add(squareOf(block));
-        difference_.areas = area.boxes(std::max(kept_.width, kept_.height));
+        difference_.areas = area.boxes(longerSide());
     }
 
     /// Gives the block a tree whose paints are places in its own table of stacks.
@@ -221,8 +223,8 @@ private:
     void encode(const Update& update, Clock::time_point start, Clock::time_point lowered) {
         asset::Asset& last = result_.asset;
         asset::Asset next;
-        next.width = kept_.width;
-        next.height = kept_.height;
+        next.width = kept_.excerpt.width;
+        next.height = kept_.excerpt.height;
         next.mode = options_.mode;
         const bool moved = kept_.paints.encode(picture_, update.anew || picture_.data != kept_.picture.data,
                                                last, next, colourError_);
@@ -232,7 +234,7 @@ private:
         const asset::Entry root =
             isJoined ? joinBlocks(*kept_.partition, kept_.paints.indices(), moved ? nullptr : &last, next)
                      : last.maps[0].root;
-        next.maps = {{0, 0, std::max(kept_.width, kept_.height), root}};
+        next.maps = {{0, 0, longerSide(), root}};
         if (isJoined)
             checkDrawn(next.maps.size(), next.nodes.size(), next.pieces.size());
         next.commands = {asset::Command{}};
@@ -244,8 +246,8 @@ private:
         if (!isJoined)
             next.fallbackLeaves = last.fallbackLeaves;
         Result report;
-        report.asset.width = kept_.width;
-        report.asset.height = kept_.height;
+        report.asset.width = kept_.excerpt.width;
+        report.asset.height = kept_.excerpt.height;
         report.sampledStrokes = picture_.sampledStrokes;
         for (const Partition::Block& block : kept_.partition->blocks())
             certify(block.tree, treeOptions_.budget, report);
@@ -281,8 +283,8 @@ private:
 
 }  // namespace
 
-Kept::Kept(double pictureWidth, double pictureHeight, const Options& options)
-    : width(pictureWidth), height(pictureHeight), lattice(width, height, latticeBits(options)) {}
+Kept::Kept(const Excerpt& of, const Options& options)
+    : excerpt(of), lattice(of.width, of.height, latticeBits(options)) {}
 
 bool Kept::isWorn() const {
     constexpr std::size_t factor = 4;  // seldom enough to be paid for by the edits in between

@@ -6,6 +6,7 @@
 
 #include <vtm/compiler/session.hpp>
 #include "compiler/lower/lattice.hpp"
+#include "compiler/lower/lower.hpp"
 #include "compiler/lower/outline_cache.hpp"
 #include "compiler/paint/region_paints.hpp"
 #include "compiler/session/changes.hpp"
@@ -16,9 +17,9 @@ namespace vtm::compiler {
 /// What is kept of the last scene.
 struct Kept {
     /// Of no scene yet.
-    Kept(double pictureWidth, double pictureHeight, const Options& options);
+    Kept(const Excerpt& of, const Options& options);
 
-    double width, height;
+    Excerpt excerpt;  ///< of all scenes
     Lattice lattice;
     OutlineCache cache;
     LoweredScene picture;
@@ -37,12 +38,9 @@ struct Edited {
     asset::Difference difference;
 };
 
-/// The whole picture, which may look different.
-inline asset::Area wholeArea(const scene::Scene& scene) { return {0, 0, scene.width, scene.height}; }
-
 /// Brings `kept` and `result` from the last scene to `scene`. Gives up and returns nothing if most outlines
-/// are new: compiling takes less. If it does, or throws, `kept` is of no use any more, and `result` is what
-/// it was.
+/// are new, because compiling takes less, or if a pattern must be drawn as an image. If it does, or throws,
+/// `kept` is of no use any more, and `result` is what it was.
 std::optional<Edited> edit(Kept& kept, Result& result, const scene::Scene& scene, const Options& options);
 
 }  // namespace vtm::compiler

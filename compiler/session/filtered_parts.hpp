@@ -1,40 +1,57 @@
 /// \file
-/// Scenes with filters in, one after the other; out come results, of which pictures between filters that stay
-/// the same are compiled once.
+/// Scenes with filters in, one after the other; out come their assets, at the cost of what changed in the
+/// pictures between the filters.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
-#include <unordered_map>
+#include <cstdint>
+#include <vector>
 
 #include <vtm/compiler/compile.hpp>
 #include <vtm/scene/scene.hpp>
-#include "compiler/lower/lower.hpp"
+#include "compiler/filters/compile_filtered.hpp"
+#include "compiler/session/edited_picture.hpp"
 
 namespace vtm::compiler {
 
-/// What of a scene with filters has none itself, by what it was made from.
+/// A scene with filters, and what of it has none itself, part by part.
 class FilteredParts {
 public:
-    /// As compile() of this scene, which must be valid and have filters; only parts that the scene before did
-    /// not have are compiled.
-    Result compile(const scene::Scene& scene, const Options& options);
-    /// So many were compiled last, of so many.
-    std::size_t compiled() const { return compiled_; }
-    std::size_t size() const { return parts_.size(); }
+    /// Goes on to the next scene, which must be valid and have filters. Parts that stay the same are kept,
+    /// and those that changed are edited. If it throws, the result stays, and the next scene is compiled
+    /// anew.
+    /// `paths`: of the scene, as far as they are gathered.
+    void update(const scene::Scene& scene, std::vector<const scene::Path*> paths, const Options& options);
+
+    const Result& result() const { return result_; }
+    /// Whether a path was among those of the last scene, which is valid.
+    bool knows(const scene::Path& path) const { return std::ranges::binary_search(paths_, &path); }
+    /// What the last update changed.
+    const Edited& report() const { return report_; }
 
 private:
     struct Part {
-        scene::NodeList nodes;
-        Excerpt excerpt;
-        double tolerance;
-        Result result;
+        PlainPart from;
+        EditedPicture picture;
+        std::uint32_t firstMap = 0;  ///< in the result; a part's maps follow each other
     };
-    using Parts = std::unordered_multimap<std::size_t, Part>;
+    /// What a part was in the scene before.
+    struct Last {
+        Part* part = nullptr;
+        bool isSame = false;
+    };
 
-    static std::size_t keyOf(const scene::NodeList& nodes);
+    static std::vector<Last> lastOf(const std::vector<PlainPart>& now, std::vector<Part>& before);
+    static std::vector<Part> partsOf(FilterPlan& plan, const std::vector<Last>& last, const Excerpt& whole,
+                                     const Options& options);
+    static std::vector<asset::MapChange> changesOf(const Part& part, bool isSame);
 
-    Parts parts_;  ///< by key
-    std::size_t compiled_ = 0;
+    std::vector<Part> parts_;
+    scene::Scene scene_;
+    std::vector<const scene::Path*> paths_;  ///< of the scene, which holds them; ascending
+    Result result_;
+    Edited report_;
 };
 
 }  // namespace vtm::compiler

@@ -2,6 +2,7 @@
 #include <vtm/limits/limits.hpp>
 
 #include <algorithm>
+#include <bit>
 
 namespace vtm::image {
 
@@ -79,6 +80,10 @@ std::vector<Level> levelsOf(const Bitmap& bitmap) {
         pyramid.add(1, row, 1);
     }
     return pyramid.take();
+}
+
+unsigned levelCount(const Bitmap& bitmap) {
+    return unsigned(std::bit_width(unsigned(std::max(bitmap.width, bitmap.height)) - 1));
 }
 
 }  // namespace vtm::image

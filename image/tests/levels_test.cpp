@@ -35,6 +35,7 @@ TEST(Levels, AreRoundedMeansOfTheirBlocks) {
     for (const auto& [width, height] : {std::pair{16, 16}, {13, 9}, {1, 7}, {33, 2}, {5, 1}}) {
         const Bitmap bitmap = noise(width, height, unsigned(width * 100 + height));
         const std::vector<Level> levels = levelsOf(bitmap);
+        EXPECT_EQ(levelCount(bitmap), levels.size());
         for (std::size_t l = 0; l < levels.size(); ++l) {
             const int level = int(l) + 1;
             const Level& found = levels[l];
@@ -52,7 +53,10 @@ TEST(Levels, AreRoundedMeansOfTheirBlocks) {
     }
 }
 
-TEST(Levels, APixelHasNone) { EXPECT_TRUE(levelsOf(noise(1, 1, 1)).empty()); }
+TEST(Levels, APixelHasNone) {
+    EXPECT_TRUE(levelsOf(noise(1, 1, 1)).empty());
+    EXPECT_EQ(levelCount(noise(1, 1, 1)), 0u);
+}
 
 TEST(Levels, TransparentPixelsLendNoColour) {
     const Bitmap bitmap{2, 1, {255, 255, 255, 0, 200, 100, 0, 255}};

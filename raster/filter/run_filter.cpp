@@ -247,12 +247,16 @@ private:
 
 }  // namespace
 
+PixelBox shownOf(const FilterPlace& place, const View& below) {
+    return mapped(place.needed.back(), place.toBelow)
+        .grown(glm::ivec2(place.isSampled ? 1 : 0))
+        .intersection({{0, 0}, {below.width, below.height}});
+}
+
 Canvas runFilter(const AssetView& asset, const Filter& filter, const FilterPlace& place,
                  std::vector<Canvas> pictures, const View& below) {
     Layer result = FilterRun(asset, filter, place, std::move(pictures)).run();
-    const PixelBox box = mapped(result.box, place.toBelow)
-                             .grown(glm::ivec2(place.isSampled ? 1 : 0))
-                             .intersection({{0, 0}, {below.width, below.height}});
+    const PixelBox box = shownOf(place, below);
     if (result.empty() || box.empty())
         return Canvas(below);
     if (!place.isSampled && place.toBelow[0] == glm::dvec2(1, 0) && place.toBelow[1] == glm::dvec2(0, 1)) {

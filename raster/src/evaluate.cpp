@@ -4,6 +4,7 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <vector>
@@ -20,7 +21,9 @@
 #include "raster/blend.hpp"
 #include "raster/filter/run_filter.hpp"
 #include "raster/src/canvas.hpp"
+#include "raster/src/command_stack.hpp"
 #include "raster/src/draw_map.hpp"
+#include "raster/src/filter_results.hpp"
 #include "raster/src/map_scanner.hpp"
 #include "raster/src/paint.hpp"
 #include "raster/src/rough.hpp"
@@ -139,13 +142,20 @@ void applyMask(const Canvas& mask, Op op, Canvas& top) {
     });
 }
 
+/// Where results of filters are kept.
+struct Keeping {
+    FilterResults* results = nullptr;
+    PixelBox box{};          ///< what is drawn of their view
+    bool usesKnown = false;  ///< else all are made anew
+};
+
 /// The pictures that commands draw into.
 class PictureStack {
 public:
     /// `maps`: draws them; without it their leaves are added up.
     PictureStack(const Paints& paints, const View& view, const MaterialFunction& materials, int levels,
-                 const MapDrawer* maps)
-        : paints_(paints), materials_(materials), levels_(levels), maps_(maps) {
+                 const MapDrawer* maps, const Keeping& keeping)
+        : paints_(paints), materials_(materials), levels_(levels), maps_(maps), keeping_(keeping) {
         push(view);
     }
 
@@ -166,6 +176,8 @@ public:
                 pop(ahead.front().pop());
                 done = ahead.front().commands.size();
                 ahead.pop_front();
+            } else if (keeping_.results && commands[0].kind == Command::Kind::PushInput && isAtRoot()) {
+                done = keepFiltered(commands);
             } else {
                 execute(commands[0]);
             }
@@ -229,25 +241,11 @@ private:
     }
     /// From the first, which pushes, to that which pops what it pushed.
     std::size_t countToPop(std::span<const Command> commands) const {
-        std::size_t pictures = 0, count = 0;
-        do {
-            const Command& command = commands[count++];
-            switch (command.kind) {
-                case Command::Kind::DrawMap:
-                case Command::Kind::FillMask:
-                case Command::Kind::ClipMask:
-                    break;
-                case Command::Kind::Push:
-                case Command::Kind::PushInput:
-                    ++pictures;
-                    break;
-                case Command::Kind::Filter:
-                    pictures -= paints_.asset().filters[command.map].pictures - 1;
-                    break;
-                default:
-                    --pictures;
-            }
-        } while (pictures > 0);
+        std::size_t count = 0;
+        int pictures = 0;
+        do
+            pictures += picturesPushed(paints_.asset(), commands[count++]);
+        while (pictures > 0);
         return count;
     }
 
@@ -273,7 +271,7 @@ private:
         tbb::parallel_for(std::size_t{0}, pushed.size(), [&, holding = limits::current()](std::size_t i) {
             const limits::Scope scope(holding);
             const KeptBlocks::Shared shared(blocks);
-            PictureStack stack(paints_, view, materials_, levels_, maps_);
+            PictureStack stack(paints_, view, materials_, levels_, maps_, isAtRoot() ? keeping_ : Keeping{});
             stack.execute(pushed[i].inner());
             pushed[i].canvas = stack.take();
         });
@@ -366,19 +364,44 @@ private:
             {runFilter(paints_.asset(), filter, *place, std::move(inputs), top().canvas.view())});
     }
 
+    /// Whether what is pushed now is not for a filter: it has the view of what is drawn.
+    bool isAtRoot() const {
+        return std::ranges::none_of(pictures_, [](const Picture& picture) { return bool(picture.place); });
+    }
+
+    /// Pushes the result of the filter whose first input the commands push. Returns how many they are.
+    std::size_t keepFiltered(std::span<const Command> commands) {
+        const AssetView& asset = paints_.asset();
+        const auto first = std::size_t(commands.data() - asset.commands.data());
+        const std::span<const Command> all = filteredBy(asset, commands);
+        const View below = top().canvas.view();
+        if (keeping_.usesKnown)
+            if (auto known = keeping_.results->find(first, keeping_.box, below)) {
+                pictures_.push_back({std::move(*known)});
+                return all.size();
+            }
+        execute(all[0]);
+        execute(all.subspan(1));
+        const View& view = keeping_.results->view();
+        const FilterPlace place = placeOf(asset, asset.filters[all[0].map], view);
+        keeping_.results->put(first, shownOf(place, view), keeping_.box, top().canvas);
+        return all.size();
+    }
+
     const Paints& paints_;
     const MaterialFunction& materials_;
     const int levels_;
     const MapDrawer* const maps_;
+    const Keeping keeping_;
     std::vector<Picture> pictures_;
 };
 
 /// Rough pixels so many levels finer.
 Canvas drawn(const Paints& paints, const View& view, const MaterialFunction& materials, int levels,
-             const MapDrawer* maps = nullptr) {
+             const MapDrawer* maps = nullptr, const Keeping& keeping = {}) {
     validate(view);
     const KeptBlocks blocks;
-    PictureStack stack(paints, view, materials, levels, maps);
+    PictureStack stack(paints, view, materials, levels, maps, keeping);
     stack.execute(paints.asset().commands);
     return stack.take();
 }
@@ -394,24 +417,75 @@ Raster evaluateAsShaders(const AssetView& asset, const View& view, const Materia
 }
 
 struct Evaluator::Impl {
-    explicit Impl(const AssetView& asset) : paints(asset) {
+    Impl(const AssetView& asset, const EvaluatorOptions& of) : options(of), paints(asset) {
         // Faster where maps are seen whole.
         if (!asset.filters.empty())
             scanner.emplace(paints);
     }
-    Canvas draw(const View& view, const MaterialFunction& materials) const {
-        return drawn(paints, view, materials, finerLevels(paints.asset(), view),
-                     scanner ? &*scanner : nullptr);
+    Impl(const AssetView& asset, Impl&& last, const Difference& difference)
+        : options(last.options),
+          paints(difference.images
+                     ? Paints(asset)
+                     : Paints(asset, std::make_shared<const Images>(asset, last.paints.images()))) {
+        if (asset.filters.empty())
+            return;
+        if (!last.scanner) {
+            scanner.emplace(paints);
+            return;
+        }
+        scanner.emplace(paints, std::move(*last.scanner), difference.maps);
+        results = std::move(last.results);
+        if (results)
+            results->update(asset, difference);
     }
 
+    Canvas draw(const View& view, const MaterialFunction& materials) const {
+        if (!options.keepsFilterResults || !scanner || materials)
+            return draw(view, materials, {});
+        validate(view);
+        auto made = std::make_shared<FilterResults>(paints.asset(), view);
+        share(nullptr);  // first, so that there are never two
+        Canvas canvas = draw(view, materials, {made.get(), {{0, 0}, {view.width, view.height}}, false});
+        share(std::move(made));
+        return canvas;
+    }
+    Canvas drawBox(const View& view, const PixelBox& box, const MaterialFunction& materials) const {
+        const std::shared_ptr<FilterResults> known = sharedResults();
+        const bool isOfView = known && !materials && known->isOf(view);
+        return draw(crop(view, box), materials, isOfView ? Keeping{known.get(), box, true} : Keeping{});
+    }
+
+private:
+    Canvas draw(const View& view, const MaterialFunction& materials, const Keeping& keeping) const {
+        return drawn(paints, view, materials, finerLevels(paints.asset(), view),
+                     scanner ? &*scanner : nullptr, keeping);
+    }
+    void share(std::shared_ptr<FilterResults> made) const {
+        const std::lock_guard lock(mutex);
+        results.swap(made);
+    }
+    std::shared_ptr<FilterResults> sharedResults() const {
+        const std::lock_guard lock(mutex);
+        return results;
+    }
+
+    const EvaluatorOptions options;
     const Paints paints;
-    std::optional<MapScanner> scanner;  ///< where there are filters
+    std::optional<MapScanner> scanner;               ///< where there are filters
+    mutable std::mutex mutex;                        ///< guards `results`
+    mutable std::shared_ptr<FilterResults> results;  ///< of the view that was drawn last
 };
 
-Evaluator::Evaluator(const AssetView& asset) : impl_(std::make_unique<Impl>(asset)) {}
+Evaluator::Evaluator(const AssetView& asset) : Evaluator(asset, {}) {}
+Evaluator::Evaluator(const AssetView& asset, const EvaluatorOptions& options)
+    : impl_(std::make_unique<Impl>(asset, options)) {}
 Evaluator::~Evaluator() = default;
 Evaluator::Evaluator(Evaluator&&) noexcept = default;
 Evaluator& Evaluator::operator=(Evaluator&&) noexcept = default;
+
+void Evaluator::update(const AssetView& asset, const Difference& difference) {
+    impl_ = std::make_unique<Impl>(asset, std::move(*impl_), difference);
+}
 
 Raster Evaluator::draw(const View& view, const MaterialFunction& materials) const {
     return impl_->draw(view, materials).toRaster();
@@ -426,7 +500,7 @@ void Evaluator::drawBox(const View& view, const PixelBox& box, const ByteTarget&
     validate(view);
     const PixelBox seen = box.intersection({{0, 0}, {view.width, view.height}});
     if (!seen.empty())
-        impl_->draw(crop(view, seen), materials).toBytes(partOf(target, seen));
+        impl_->drawBox(view, seen, materials).toBytes(partOf(target, seen));
 }
 
 void Evaluator::scan(const View& view, const std::function<void(std::span<const float>)>& take,

@@ -19,25 +19,26 @@ namespace {
 using glm::mat2;
 using glm::vec2;
 
-/// The most texels in a row that a kernel asks for.
-constexpr int maxTaps = 5;
-
 /// Of texels in a row that count at most, the one at floor(p - reach) first.
 int tapsOf(const TexelKernel& kernel) { return kernel.cubic > 0 ? 4 : int(std::ceil(kernel.width)) + 1; }
 float reachOf(const TexelKernel& kernel) { return kernel.cubic > 0 ? 1.5f : 0.5f * kernel.width; }
 
-/// Weight of a texel whose middle is at distance d along one axis. The cubic (Keys 1981, a = -1/2) passes
+Float4 least(Float4 a, Float4 b) { return a < b ? a : b; }
+Float4 most(Float4 a, Float4 b) { return a > b ? a : b; }
+Float4 all(float value) { return Float4{value, value, value, value}; }
+
+/// Weights of texels whose middles are at distances d along one axis. The cubic (Keys 1981, a = -1/2) passes
 /// through the pixels, and through the points of any quadratic.
-float weightOf(const TexelKernel& kernel, float d) {
+Float4 weightsOf(const TexelKernel& kernel, Float4 d) {
     if (kernel.width == 0)
-        return 1;
-    d = std::abs(d);
-    const float half = 0.5f * kernel.width;
-    const float mean = std::max(std::min(d + 0.5f, half) - std::max(d - 0.5f, -half), 0.0f) / kernel.width;
+        return all(1);
+    d = most(d, -d);
+    const Float4 half = all(0.5f * kernel.width);
+    const Float4 mean = most(least(d + 0.5f, half) - most(d - 0.5f, -half), Float4{}) / kernel.width;
     if (kernel.cubic == 0)
         return mean;
-    const float keys = d < 1 ? (1.5f * d - 2.5f) * d * d + 1 : ((-0.5f * d + 2.5f) * d - 4) * d + 2;
-    return glm::mix(mean, keys, kernel.cubic);
+    const Float4 keys = d < all(1) ? (1.5f * d - 2.5f) * d * d + 1 : ((-0.5f * d + 2.5f) * d - 4) * d + 2;
+    return (1 - kernel.cubic) * mean + kernel.cubic * keys;
 }
 
 /// std::floor() of what an int holds; that is a function call without SSE 4.1.
@@ -50,20 +51,7 @@ int floorOf(float value) {
 /// goes on anyway. What is no number becomes -2.
 float bounded(float place, int size) { return place > -2 ? std::min(place, float(size) + 2) : -2.0f; }
 
-/// Along one axis: the first texel, and what it and those after it count.
-struct Taps {
-    int first;
-    int count;
-    std::array<float, maxTaps> weights;
-
-    Taps(float place, int size, const TexelKernel& kernel) {
-        const float p = bounded(place, size);
-        first = floorOf(p - reachOf(kernel));
-        count = tapsOf(kernel);
-        for (int i = 0; i < count; ++i)
-            weights[std::size_t(i)] = weightOf(kernel, float(first + i) + 0.5f - p);
-    }
-};
+constexpr float perByte = 1.0f / 255;
 
 constexpr float maxOblong = 16, nearlyRound = 1.0f / 64;
 
@@ -100,7 +88,7 @@ constexpr float blendsFrom = 3.5f;
 /// From one texel to so many the cubic becomes the mean of a square.
 constexpr float cubicTo = 1.25f;
 
-bool isOpaque(const image::Bitmap& bitmap) {
+bool allOpaque(const image::Bitmap& bitmap) {
     for (std::size_t i = 3; i < bitmap.rgba.size(); i += 4)
         if (bitmap.rgba[i] != 255)
             return false;
@@ -109,44 +97,67 @@ bool isOpaque(const image::Bitmap& bitmap) {
 
 }  // namespace
 
+inline Taps::Taps(float place, int size, const TexelKernel& kernel) {
+    const float p = bounded(place, size);
+    first = floorOf(p - reachOf(kernel));
+    count = tapsOf(kernel);
+    const Float4 distances = (float(first) + 0.5f - p) + Float4{0, 1, 2, 3};
+    weights[0] = weightsOf(kernel, distances);
+    if (count > 4)
+        weights[1] = weightsOf(kernel, distances + 4.0f);
+}
+
+LeveledImage::LeveledImage(const image::Bitmap& bitmap) : bitmap_(bitmap), made_(std::make_shared<Made>()) {
+    made_->isOpaque = allOpaque(bitmap);
+}
+
+const image::Level& LeveledImage::level(unsigned number) const {
+    std::call_once(made_->areLevelsMade, [&] { made_->levels = image::levelsOf(bitmap_); });
+    return made_->levels[number - 1];
+}
+
 Images::Images(const AssetView& asset) {
-    const std::vector<bool> wanted = imagesWithLevels(asset);
+    for (const image::Bitmap& bitmap : asset.images)
+        images_.emplace_back(bitmap);
+}
+
+Images::Images(const AssetView& asset, const Images& last) {
     for (std::size_t i = 0; i < asset.images.size(); ++i)
-        images_.push_back({&asset.images[i],
-                           wanted[i] ? image::levelsOf(asset.images[i]) : std::vector<image::Level>(),
-                           isOpaque(asset.images[i])});
+        images_.emplace_back(asset.images[i], last.images_[i]);
 }
 
 ImageReader::ImageReader(const Images& images, const ImageFill& fill, const mat2& pixel)
     : matrix_(fill.matrix) {
     const LeveledImage& image = images[fill.image];
-    finer_ = texelsOf(image, 0);
+    texels_ = texelsOf(image, 0);
     if (fill.filter < ImageFilter::Trilinear) {
         kernel_.width = fill.filter == ImageFilter::Nearest ? 0 : 1;
+        finer_.prepare(texels_, kernel_);
         return;
     }
     probes_ = probesOf(mat2(fill.matrix[0], fill.matrix[1], fill.matrix[2], fill.matrix[3]) * pixel);
-    const float last = float(image.levels.size());
+    const auto last = float(image.levelCount());
     const float lod = std::clamp(std::floor(std::log2(probes_.width)) - 1, 0.0f, last);
     const auto level = unsigned(lod);
-    finer_ = texelsOf(image, level);
-    kernel_.width = glm::clamp(probes_.width * finer_.scale, 1.0f, mostTexels);
+    texels_ = texelsOf(image, level);
+    kernel_.width = glm::clamp(probes_.width * texels_.scale, 1.0f, mostTexels);
     if (level == 0 && fill.filter == ImageFilter::Bicubic)
         kernel_.cubic = std::max((cubicTo - kernel_.width) / (cubicTo - 1), 0.0f);
+    finer_.prepare(texels_, kernel_);
     if (lod != last && kernel_.width > blendsFrom) {
         share_ = (kernel_.width - blendsFrom) / (mostTexels - blendsFrom);
-        coarser_ = texelsOf(image, level + 1);
+        coarser_.prepare(texelsOf(image, level + 1), {0.5f * kernel_.width});
     }
 }
 
-ImageReader::Texels ImageReader::texelsOf(const LeveledImage& image, unsigned level) {
+Texels ImageReader::texelsOf(const LeveledImage& image, unsigned level) {
     if (level == 0)
-        return {image.bitmap->width, image.bitmap->height, image.bitmap->rgba.data(), image.isOpaque, 1};
-    const image::Level& texels = image.levels[level - 1];
+        return {image.bitmap().width, image.bitmap().height, image.bitmap().rgba.data(), image.isOpaque(), 1};
+    const image::Level& texels = image.level(level);
     return {texels.width, texels.height, texels.rgba.data(), true, std::ldexp(1.0f, -int(level))};
 }
 
-inline Float4 ImageReader::Texels::operator()(int x, int y) const {
+inline Float4 Texels::operator()(int x, int y) const {
     x = std::clamp(x, 0, width - 1);
     y = std::clamp(y, 0, height - 1);
     const Float4 c = float4(rgba + (std::size_t(y) * std::size_t(width) + std::size_t(x)) * 4);
@@ -154,41 +165,90 @@ inline Float4 ImageReader::Texels::operator()(int x, int y) const {
     return c * Float4{alpha, alpha, alpha, 1};
 }
 
-/// Between four texels. Premultiplied neighbours are summed, so that transparent pixels lend no colour.
-Float4 ImageReader::interpolated(const Texels& texels, vec2 place) {
-    const float px = bounded(place.x, texels.width) - 0.5f, py = bounded(place.y, texels.height) - 0.5f;
-    const int x = floorOf(px), y = floorOf(py);
-    const float right = px - float(x), below = py - float(y);
-    const auto column = [&](int at) { return (1 - below) * texels(at, y) + below * texels(at, y + 1); };
+void ImageReader::knowColumns(int x, int y, float below) {
+    const auto column = [&](int at) { return (1 - below) * texels_(at, y) + below * texels_(at, y + 1); };
     const bool sameRows = columns_.y == y && columns_.below == below;
     if (!sameRows || columns_.x != x) {
         const bool next = sameRows && columns_.x == x - 1;
         columns_ = {x, y, below, next ? columns_.right : column(x), column(x + 1)};
     }
-    return (1 - right) * columns_.left + right * columns_.right;
 }
 
-Float4 ImageReader::summed(const Texels& texels, vec2 place, const TexelKernel& kernel) {
-    const Taps across(place.x, texels.width, kernel), down(place.y, texels.height, kernel);
+/// Between four texels. Premultiplied neighbours are summed, so that transparent pixels lend no colour.
+Float4 ImageReader::interpolated(vec2 place) {
+    const float px = bounded(place.x, texels_.width) - 0.5f, py = bounded(place.y, texels_.height) - 0.5f;
+    const int x = floorOf(px), y = floorOf(py);
+    knowColumns(x, y, py - float(y));
+    return columns_.left + (px - float(x)) * (columns_.right - columns_.left);
+}
+
+/// At places along a row of texels. Between two columns colours are straight.
+void ImageReader::interpolateRow(vec2 place, float change, std::span<Float4> colors) {
+    const float py = bounded(place.y, texels_.height) - 0.5f;
+    const int y = floorOf(py);
+    const auto placeOf = [&](std::size_t i) { return place.x + float(int(i)) * change; };
+    for (std::size_t i = 0; i < colors.size();) {
+        const float px = bounded(placeOf(i), texels_.width) - 0.5f;
+        const int x = floorOf(px);
+        knowColumns(x, y, py - float(y));
+        const Float4 left = perByte * columns_.left, slope = perByte * (columns_.right - columns_.left);
+        const float start = float(x) + 0.5f;
+        float right = px - float(x);
+        do {
+            colors[i++] = left + right * slope;
+            right = placeOf(i) - start;
+        } while (i < colors.size() && right >= 0 && right < 1);
+    }
+}
+
+inline Float4 KernelSums::column(int x) const {
     Float4 sum{};
-    for (int j = 0; j < down.count; ++j)
-        for (int i = 0; i < across.count; ++i)
-            sum += down.weights[std::size_t(j)] * across.weights[std::size_t(i)] *
-                   texels(across.first + i, down.first + j);
+    for (int j = 0; j < down_.count; ++j)
+        sum += down_.weight(j) * texels_(x, down_.first + j);
     return sum;
 }
 
+Float4 KernelSums::at(vec2 place) {
+    const Taps across(place.x, texels_.width, kernel_);
+    Float4 sum{};
+    if (place.y != y_) {
+        y_ = place.y;
+        down_ = Taps(place.y, texels_.height, kernel_);
+        numbers_.fill(none);
+        for (int i = 0; i < across.count; ++i)
+            sum += across.weight(i) * column(across.first + i);
+        return sum;
+    }
+    for (int i = 0; i < across.count; ++i) {
+        const int x = across.first + i;
+        const auto slot = std::size_t(x & (kept - 1));
+        if (numbers_[slot] != x) {
+            numbers_[slot] = x;
+            columns_[slot] = column(x);
+        }
+        sum += across.weight(i) * columns_[slot];
+    }
+    return sum;
+}
+
+void ImageReader::colors(vec2 first, vec2 step, std::span<Float4> colors) {
+    const vec2 change = mat2(matrix_[0], matrix_[1], matrix_[2], matrix_[3]) * step;
+    if (interpolates() && change.y == 0)
+        return interpolateRow(texels_.scale * applyMatrix(matrix_, first), texels_.scale * change.x, colors);
+    for (std::size_t i = 0; i < colors.size(); ++i)
+        colors[i] = color(first + float(int(i)) * step);
+}
+
 Float4 ImageReader::color(vec2 point) {
-    constexpr float perByte = 1.0f / 255;
-    const vec2 p = finer_.scale * applyMatrix(matrix_, point);
-    if (kernel_.width == 1 && kernel_.cubic == 0 && probes_.side == 0)
-        return perByte * interpolated(finer_, p);
+    const vec2 p = texels_.scale * applyMatrix(matrix_, point);
+    if (interpolates())
+        return perByte * interpolated(p);
     Float4 sum{};
     for (int i = -probes_.side; i <= probes_.side; ++i) {
-        const vec2 place = p + float(i) * finer_.scale * probes_.step;
-        Float4 color = summed(finer_, place, kernel_);
+        const vec2 place = p + float(i) * texels_.scale * probes_.step;
+        Float4 color = finer_.at(place);
         if (share_ > 0)
-            color = (1 - share_) * color + share_ * summed(coarser_, 0.5f * place, {0.5f * kernel_.width});
+            color = (1 - share_) * color + share_ * coarser_.at(0.5f * place);
         sum += (std::abs(i) == probes_.side ? probes_.outer : 1) / probes_.all * perByte * color;
     }
     return asColor(sum);

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
+#include <vtm/asset/difference.hpp>
 #include <vtm/raster/scan.hpp>
 #include "raster/command_picture.hpp"
 #include "raster/src/paint.hpp"
@@ -16,6 +18,8 @@ class MapScanner : public MapDrawer {
 public:
     /// The asset of the paints must outlive it.
     explicit MapScanner(const Paints& paints);
+    /// Of the asset that follows that of `last`, whose boundaries it takes over.
+    MapScanner(const Paints& paints, MapScanner&& last, std::span<const MapChange> changes);
     ~MapScanner() override;
     MapScanner(MapScanner&&) noexcept;
     MapScanner& operator=(MapScanner&&) noexcept;

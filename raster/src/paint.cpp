@@ -51,6 +51,10 @@ std::optional<Float4> radial(const GradientView& gradient, const Row& row, std::
     return radialColors(gradient, row.first.point, row.step, row.first.pixel, colors);
 }
 
+void read(ImageReader& image, const Row& row, std::span<Float4> colors) {
+    image.colors(row.first.point, row.step, colors);
+}
+
 /// Places anywhere.
 struct Scattered {
     std::span<const vec2> points;
@@ -70,6 +74,11 @@ std::optional<Float4> radial(const GradientView& gradient, const Scattered& plac
     return radialColors(gradient, places.points, places.sides, colors);
 }
 
+void read(ImageReader& image, const Scattered& places, std::span<Float4> colors) {
+    for (std::size_t i = 0; i < colors.size(); ++i)
+        colors[i] = image.color(places.point(i));
+}
+
 /// Of a layer that is not solid; one colour instead where it is seen to be the same everywhere.
 template <class Places>
 std::optional<Float4> layerColors(const Paints& paints, const Instruction& in, const Places& places,
@@ -78,8 +87,7 @@ std::optional<Float4> layerColors(const Paints& paints, const Instruction& in, c
     switch (in.op) {
         case Op::Image: {
             ImageReader reader(paints.images(), recordAt<ImageFill>(data, in.argument), places.pixel());
-            for (std::size_t i = 0; i < colors.size(); ++i)
-                colors[i] = reader.color(places.point(i));
+            read(reader, places, colors);
             return {};
         }
         case Op::Material: {

@@ -14,6 +14,7 @@
 #include <tbb/task_arena.h>
 
 #include <vtm/limits/limits.hpp>
+#include "raster/drawing_threads.hpp"
 #include "raster/src/drawing.hpp"
 
 namespace vtm::asset {
@@ -46,19 +47,12 @@ public:
     ParallelDrawing(const Scanned& of, const View& view, ScratchPool& pool)
         : of_(of), view_(view), pool_(pool), finerLevels_(finerLevelsOf(of, view)) {}
 
-    /// Whether it is worth it: waking threads that sleep costs as much as filling a million pixels, some
-    /// tenths of a millisecond.
+    /// Whether it is worth it. In a small picture levels of detail leave little of many boundaries.
     static bool pays(const Scanned& of, const View& view) {
-        constexpr std::size_t somePixels = 1u << 14, muchWork = 1u << 21;
-        // A boundary and a pixel of paint programs take as long as so many pixels of solid colour.
-        constexpr std::size_t boundary = 300, programPixel = 8;
+        constexpr std::size_t somePixels = 1u << 14, boundary = 300;
         const std::size_t pixels = std::size_t(view.width) * std::size_t(view.height);
-        if (tbb::this_task_arena::max_concurrency() == 1 || pixels < somePixels)
-            return false;
-        // In a small picture levels of detail leave little of many boundaries.
-        return pixels * (of.hasPrograms() ? programPixel : 1) +
-                   boundary * std::min(of.boundaryCount(), pixels) >=
-               muchWork;
+        return pixels >= somePixels &&
+               areThreadsWorthIt(view, of.hasPrograms(), boundary * std::min(of.boundaryCount(), pixels));
     }
 
     /// `store`: called by several threads at once.

@@ -168,25 +168,26 @@ constexpr float maxBending = 1.0f / 3000;
 /// be there is far from any colour.
 constexpr float minStretch = 0.25f;
 
-/// A stretch's length, and what its straight colours change by.
-struct StretchSlope {
+/// A stretch's length, its straight colours at both ends, and what they change by.
+struct Ends {
     float length;
-    Float4 slope;
+    Float4 first, last, slope;
 };
 
 /// `number`: of the stop at which it ends.
-StretchSlope slopeOf(const GradientView& gradient, std::size_t number) {
+Ends endsOf(const GradientView& gradient, std::size_t number) {
     const std::size_t count = gradient.size();
     if (number == 0 || number == count) {
         const bool isPadded = gradient.gradient().spread == Spread::Pad;
+        const Float4 color = float4(gradient.color(number == 0 ? 0 : count - 1));
         return {isPadded      ? std::numeric_limits<float>::infinity()
                 : number == 0 ? gradient.offset(0)
                               : 1 - gradient.offset(count - 1),
-                Float4{}};
+                color, color, Float4{}};
     }
     const float length = gradient.offset(number) - gradient.offset(number - 1);
-    const Float4 change = float4(gradient.color(number)) - float4(gradient.color(number - 1));
-    return {length, length > 0 ? change / length : Float4{}};
+    const Float4 first = float4(gradient.color(number - 1)), last = float4(gradient.color(number));
+    return {length, first, last, length > 0 ? (last - first) / length : Float4{}};
 }
 
 }  // namespace
@@ -204,7 +205,7 @@ Float4 Ramp::over(float place, vec2 sides) {
 /// Colours are quadratic in u, so the mean over the stretch alone is that in the middle and bend times the
 /// variance. Beyond a stop, at a distance d from the middle, the density is (r - x) / (longer shorter) with r
 /// the reach, less (f - x) / (longer shorter) as far as f, half of the sides' difference; to be integrated
-/// are x - d and its square.
+/// are 1, x - d and its square.
 std::optional<Float4> Ramp::meanNear(float place, const Sides& sides) {
     const float reach = sides.reach(), flat = 0.5f * (sides.longer - sides.shorter);
     if (!(high_ - low_ >= minStretch * reach))
@@ -223,6 +224,7 @@ std::optional<Float4> Ramp::meanNear(float place, const Sides& sides) {
         if (!(x <= other.length))
             return {};
         const float y = std::max(flat - distance, 0.0f), height = (y > 0 ? sides.shorter : x) * density;
+        mean += height * (0.5f * (x + y)) * other.jump;
         mean += height * ((1.0f / 6) * (x * x + x * y + y * y)) * other.change;
         mean += height * ((1.0f / 12) * (x + y) * (x * x + y * y)) * other.bend;
     }
@@ -233,13 +235,31 @@ const Ramp::Beyond& Ramp::beyond(bool isAbove) {
     Beyond& known = beyond_[std::size_t(isAbove)];
     if (std::exchange(knowsBeyond_[std::size_t(isAbove)], true))
         return known;
-    if (number_ == (isAbove ? gradient_.size() : 0))
-        return known = Beyond{0, Float4{}, Float4{}};  // the ramp's end
-    const StretchSlope here = slopeOf(gradient_, number_),
-                       next = slopeOf(gradient_, isAbove ? number_ + 1 : number_ - 1);
-    const Float4 stop = float4(gradient_.color(isAbove ? number_ : number_ - 1));
-    const Float4 change = changeOf(stop, next.slope) - changeOf(stop, here.slope);
-    return known = Beyond{next.length, isAbove ? change : -change, bendOf(next.slope) - bendOf(here.slope)};
+    const Ends here = endsOf(gradient_, number_);
+    const Float4 color = isAbove ? here.last : here.first;
+    const Neighbour next = neighbour(isAbove);
+    const Float4 change = changeOf(next.color, next.slope) - changeOf(color, here.slope);
+    return known = Beyond{next.length, premultiplied(next.color) - premultiplied(color),
+                          isAbove ? change : -change, bendOf(next.slope) - bendOf(here.slope)};
+}
+
+/// Stretches of no length are passed over. Periodic ramps go on at the other end, reflected ones turn back.
+Ramp::Neighbour Ramp::neighbour(bool isAbove) const {
+    const std::size_t count = gradient_.size() + 1;  // of stretches
+    const bool turns = gradient_.gradient().spread == Spread::Reflect;
+    std::size_t number = number_;
+    do {
+        const bool isLast = number == (isAbove ? count - 1 : 0);
+        if (isLast && turns) {
+            const Ends here = endsOf(gradient_, number_);
+            return {here.length, isAbove ? here.last : here.first, -here.slope};
+        }
+        number = isAbove ? (isLast ? 0 : number + 1) : (isLast ? count - 1 : number - 1);
+        const Ends next = endsOf(gradient_, number);
+        if (next.length > 0)
+            return {next.length, isAbove ? next.first : next.last, next.slope};
+    } while (number != number_);
+    return {0, Float4{}, Float4{}};
 }
 
 void Ramp::find(float place) {

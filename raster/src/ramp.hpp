@@ -103,11 +103,17 @@ private:
         return count;
     }
 
-    /// What the ramp differs by from the stretch, if that went on: x change + x² bend at a distance x from
-    /// its end, as far as `length`; 0 where it is something else.
+    /// What the ramp differs by from the stretch, if that went on: jump + x change + x² bend at a distance x
+    /// from its end, as far as `length`.
     struct Beyond {
         float length;
-        Float4 change, bend;
+        Float4 jump, change, bend;
+    };
+    /// What comes next beyond an end of the stretch: its length, and there its straight colour and what that
+    /// changes by with u.
+    struct Neighbour {
+        float length;
+        Float4 color, slope;
     };
     /// The two numbers whose sum u is, less that of the middle, are even over intervals of these lengths.
     struct Sides {
@@ -162,6 +168,7 @@ private:
     /// The mean over a pixel in whose reach are this stretch and its neighbours alone.
     std::optional<Float4> meanNear(float place, const Sides& sides);
     const Beyond& beyond(bool isAbove);
+    Neighbour neighbour(bool isAbove) const;
 
     const GradientView& gradient_;
     bool isPadded_;

@@ -31,9 +31,11 @@ constexpr float shapeError = 0.0045f;
 constexpr float evenWidth = 0.486f;
 
 /// More stops are left to others: making segments of them costs more than a few rows gain.
-constexpr std::size_t maxRowStops = 64;
+constexpr std::size_t maxRowStops = 128;
 /// The same of gradients over each other.
 constexpr std::size_t maxRowLayers = 16;
+/// And periods of fewer pixels: most of their pixels meet stops, and rows fall into short runs.
+constexpr float leastPeriod = 16;
 static_assert(longestRow <= 64);  // bits
 
 }  // namespace
@@ -102,12 +104,13 @@ bool RowGradient::prepare(const GradientView& gradient, bool isRadial, const Sol
     segments_.clear();
     last_ = 0;
     const Gradient& g = gradient.gradient();
-    if (g.spread != Spread::Pad || gradient.size() > maxRowStops)
-        return false;
     const Blur blur = isRadial ? prepareRadial(g, pixels) : prepareLinear(g, pixels);
-    if (!std::isfinite(blur.reach))
+    if (!std::isfinite(blur.reach) || (g.spread != Spread::Pad && 2 * blur.reach * leastPeriod > 1))
         return false;
-    makeSegments(gradient, blur, solids);
+    const std::vector<Stop> stops = stopsIn(gradient, offsetsIn(pixels));
+    if (stops.empty())
+        return false;
+    makeSegments(stops, g.spread, blur, solids);
     return std::ranges::any_of(segments_, [](const Segment& s) { return s.shape != Shape::Mixed; });
 }
 
@@ -168,13 +171,50 @@ RowGradient::Segment RowGradient::mixed(float low, float high) {
     return {low, high, 0, 0, Shape::Mixed, Float4{}, Float4{}, Float4{}, Float4{}, Float4{}};
 }
 
-void RowGradient::makeSegments(const GradientView& gradient, const Blur& blur, const Solids& solids) {
+RowGradient::Range RowGradient::offsetsIn(const PixelMiddles& pixels) const {
+    const auto at = [&](Pixel pixel) { return isRadial_ ? radial_.at(pixel) : linear_.at(pixel); };
+    const int right = pixels.width - 1, bottom = pixels.height - 1;
+    // u is convex: in a cone it is least at the tip.
+    const auto [low, high] = std::minmax({at({0, 0}), at({right, 0}), at({0, bottom}), at({right, bottom})});
+    const float tip = -radial_.circles.fr / (1 - radial_.circles.fr);
+    return {isRadial_ ? std::min(low, tip) : low, high};
+}
+
+/// Those of all periods in the range, each with what lies at its ends; none if they are too many.
+std::vector<RowGradient::Stop> RowGradient::stopsIn(const GradientView& gradient, const Range& range) {
+    const std::size_t count = gradient.size();
+    const Spread spread = gradient.gradient().spread;
+    const float first = spread == Spread::Pad ? 0 : std::floor(range.low),
+                last = spread == Spread::Pad ? 0 : std::floor(range.high);
+    if (!((last - first + 1) * float(count + 2) <= float(maxRowStops)))
+        return {};
+    std::vector<Stop> stops;
+    for (float period = first; period <= last; ++period) {
+        const bool isBackwards = spread == Spread::Reflect && std::fmod(period, 2.0f) != 0;
+        const auto add = [&](float offset, std::size_t of) {
+            stops.push_back({period + (isBackwards ? 1 - offset : offset), float4(gradient.color(of))});
+        };
+        const auto addEnd = [&](bool isLast) {
+            if (spread != Spread::Pad)
+                add(float(isLast), isLast ? count - 1 : 0);
+        };
+        addEnd(isBackwards);
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::size_t of = isBackwards ? count - 1 - i : i;
+            add(gradient.offset(of), of);
+        }
+        addEnd(!isBackwards);
+    }
+    return stops;
+}
+
+void RowGradient::makeSegments(std::span<const Stop> stops, Spread spread, const Blur& blur,
+                               const Solids& solids) {
     // The stretches between stops.
     std::array<Segment, maxRowStops + 1> stretches;
     std::size_t count = 0;
     float steepest = 0;
-    const auto addStretch = [&](float low, float high, std::size_t stop, Float4 straightSlope) {
-        const Float4 straight = float4(gradient.color(stop));
+    const auto addStretch = [&](float low, float high, Float4 straight, Float4 straightSlope) {
         const Float4 slope = changeOf(straight, straightSlope), bend = bendOf(straightSlope);
         const bool isBent = largest(bend) > 0, isSloping = largest(slope) > 0;
         const Shape shape = largest(bend) * blur.varianceError > rowTolerance ? Shape::Mixed
@@ -187,15 +227,17 @@ void RowGradient::makeSegments(const GradientView& gradient, const Blur& blur, c
         stretches[count++] = {low,   high, start,    0,       shape, premultiplied(straight),
                               slope, bend, Float4{}, Float4{}};
     };
-    const std::size_t last = gradient.size() - 1;
-    addStretch(-unbounded, gradient.offset(0), 0, Float4{});
-    for (std::size_t i = 0; i < last; ++i) {
-        const float low = gradient.offset(i), high = gradient.offset(i + 1);
-        if (low < high)
-            addStretch(low, high, i,
-                       (float4(gradient.color(i + 1)) - float4(gradient.color(i))) / (high - low));
+    const bool isPadded = spread == Spread::Pad;
+    if (isPadded)
+        addStretch(-unbounded, stops.front().offset, stops.front().color, Float4{});
+    for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+        const Stop &low = stops[i], &high = stops[i + 1];
+        if (low.offset < high.offset)
+            addStretch(low.offset, high.offset, low.color,
+                       (high.color - low.color) / (high.offset - low.offset));
     }
-    addStretch(gradient.offset(last), unbounded, last, Float4{});
+    if (isPadded)
+        addStretch(stops.back().offset, unbounded, stops.back().color, Float4{});
     if (isRadial_)
         limitTip(steepest * blur.length);
 

@@ -26,6 +26,7 @@ namespace vtm::asset {
 /// The middles of a view's pixels in the picture.
 struct PixelMiddles {
     glm::dvec2 first, right, down;  ///< of pixel (0, 0); the steps to the next ones
+    int width, height;
 };
 
 /// One gradient, with the solid colours under and over it.
@@ -49,17 +50,9 @@ public:
 
     /// Sets the mean over a pixel; false if it is not known here.
     bool at(Pixel pixel, Float4& color) {
-        float u = 0;
-        if (isRadial_) {
-            const glm::vec2 d = radial_.fromFocus(pixel);
-            const float squared = glm::dot(d, d);
-            if (squared <= radial_.nearSquared)
-                return false;
-            const float b = radial_.circles.b(d.x, d.y);
-            u = b + radial_.circles.root(b, squared);
-        } else {
-            u = linear_.at(pixel);
-        }
+        if (isRadial_ && radial_.isNear(pixel))
+            return false;
+        const float u = isRadial_ ? radial_.at(pixel) : linear_.at(pixel);
         const Segment& segment = find(u);
         if (segment.shape == Shape::Mixed)
             return false;
@@ -89,8 +82,12 @@ public:
         };
         if (isRadial_)
             visitRadial(first, count, visit, others);
-        else
+        else if (Float4 color; !linear_.isEven(first, count))
             visitLinear(first, count, visit);
+        else if (at(first, color))
+            constant(0, count, color);
+        else
+            others(0, count);
     }
 
 private:
@@ -182,6 +179,10 @@ private:
         float width;                ///< over so much to both sides u is spread in a pixel
 
         float at(Pixel pixel) const { return float(first + pixel.x * right + pixel.row * down); }
+        /// Whether pixels of a row have the same u, as under a vertical gradient.
+        bool isEven(Pixel from, std::size_t count) const {
+            return at(from) == at({from.x + int(count) - 1, from.row});
+        }
     };
     /// Circles that lie within each other: u = b + sqrt(b² + c) (gradient.cpp).
     struct Radial {
@@ -190,6 +191,15 @@ private:
         float nearSquared, pixel;
 
         glm::vec2 fromFocus(Pixel at) const { return first + double(at.x) * right + double(at.row) * down; }
+        bool isNear(Pixel at) const {
+            const glm::vec2 d = fromFocus(at);
+            return glm::dot(d, d) <= nearSquared;
+        }
+        float at(Pixel place) const {
+            const glm::vec2 d = fromFocus(place);
+            const float b = circles.b(d.x, d.y);
+            return b + circles.root(b, glm::dot(d, d));
+        }
     };
     /// How u is spread over a pixel; largest values.
     struct Blur {
@@ -204,10 +214,21 @@ private:
         Segment segment;
     };
     static Segment mixed(float low, float high);
+    /// Of u.
+    struct Range {
+        float low, high;
+    };
+    /// Of a ramp, straight.
+    struct Stop {
+        float offset;
+        Float4 color;
+    };
 
+    static std::vector<Stop> stopsIn(const GradientView& gradient, const Range& range);
     Blur prepareLinear(const Gradient& gradient, const PixelMiddles& pixels);
     Blur prepareRadial(const Gradient& gradient, const PixelMiddles& pixels);
-    void makeSegments(const GradientView& gradient, const Blur& blur, const Solids& solids);
+    Range offsetsIn(const PixelMiddles& pixels) const;
+    void makeSegments(std::span<const Stop> stops, Spread spread, const Blur& blur, const Solids& solids);
     static Joint jointOf(const Segment& one, const Segment& next, const Blur& blur);
     void limitTip(float change);
     /// If it is not empty; and a Mixed one before it, if there is a gap.

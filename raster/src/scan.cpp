@@ -2,6 +2,7 @@
 
 #include <array>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -208,9 +209,27 @@ image::Raster Scanner::draw(const View& view, const MaterialFunction& materials)
 
 struct MapScanner::Impl {
     explicit Impl(const Paints& of) : paints(of), maps(of.asset().commands.size()) {
-        for (const Command& command : of.asset().commands)
-            if (command.kind == Command::Kind::DrawMap)
+        for (std::size_t i = 0; i < maps.size(); ++i)
+            if (const Command& command = of.asset().commands[i]; command.kind == Command::Kind::DrawMap) {
                 firstPaints.insert(command.paint);
+                maps[i].map = command.map;
+            }
+    }
+    Impl(const Paints& of, Impl&& last, std::span<const MapChange> changes) : Impl(of) {
+        if (last.placed)
+            std::call_once(arePlacedMade, [&] {
+                placed = std::make_shared<PlacedMaps>(paints.asset(), std::move(*last.placed), changes);
+            });
+        std::map<std::uint32_t, Kept*> before;
+        for (Kept& kept : last.maps)
+            if (kept.scanned)
+                before[kept.map] = &kept;
+        for (std::size_t i = 0; i < maps.size(); ++i)
+            if (maps[i].map < changes.size())
+                if (const auto same = before.find(changes[maps[i].map].before); same != before.end()) {
+                    takeOver(std::move(*same->second->scanned), changes[maps[i].map].squares, i);
+                    before.erase(same);
+                }
     }
 
     template <class Store>
@@ -229,32 +248,48 @@ struct MapScanner::Impl {
     }
 
 private:
-    /// Of a command.
-    const Scanned& scannedOf(const Command& command) {
-        Kept& kept = maps[std::size_t(&command - paints.asset().commands.data())];
-        std::call_once(kept.isMade, [&] { make(command, kept.scanned); });
-        return *kept.scanned;
-    }
-
+    static constexpr std::uint32_t noMap = 0xFFFFFFFF;
     struct Kept {
+        std::uint32_t map = noMap;  ///< that the command draws
         std::once_flag isMade;
         std::optional<Scanned> scanned;
     };
 
+    /// Of a command.
+    const Scanned& scannedOf(const Command& command) {
+        Kept& kept = maps[std::size_t(&command - paints.asset().commands.data())];
+        std::call_once(kept.isMade, [&] {
+            if (!kept.scanned)
+                make(command, kept.scanned);
+        });
+        return *kept.scanned;
+    }
     void make(const Command& command, std::optional<Scanned>& scanned) {
         const AssetView& asset = paints.asset();
-        const Map& map = asset.maps[command.map];
-        scanned.emplace(paints.from(command.paint), paintEnd(command.paint) - command.paint, Sums::Encoded);
-        scanned->drawn.push_back({ScannedMap(asset, map)});
-        if (map.instances == 0)
-            return;
-        std::call_once(arePlacedMade, [&] { placed = std::make_shared<const PlacedMaps>(asset); });
-        scanned->place(placed, command.map);
+        scanned.emplace(paints.from(command.paint), paintCount(command.paint), Sums::Encoded);
+        scanned->drawn.push_back({ScannedMap(asset, asset.maps[command.map])});
+        place(command.map, *scanned);
     }
-    /// Where the paints of the next map begin.
-    std::size_t paintEnd(std::uint32_t first) const {
-        const auto next = firstPaints.upper_bound(first);
-        return next == firstPaints.end() ? paints.asset().paints.size() : *next;
+    void takeOver(Scanned&& scanned, std::span<const Cell> changed, std::size_t command) {
+        const AssetView& asset = paints.asset();
+        const auto [map, firstPaint] = std::pair(maps[command].map, asset.commands[command].paint);
+        scanned.setPaints(paints.from(firstPaint), paintCount(firstPaint));
+        if (!changed.empty())
+            scanned.drawn[0].own.update(asset, asset.maps[map], changed);
+        place(map, scanned);
+        maps[command].scanned = std::move(scanned);
+    }
+    /// In a map those that are placed in it.
+    void place(std::uint32_t map, Scanned& scanned) {
+        const AssetView& asset = paints.asset();
+        if (asset.maps[map].instances == 0)
+            return;
+        std::call_once(arePlacedMade, [&] { placed = std::make_shared<PlacedMaps>(asset); });
+        scanned.place(placed, map);
+    }
+    std::size_t paintCount(std::uint32_t first) const {
+        const auto next = firstPaints.upper_bound(first);  // where those of the next map begin
+        return (next == firstPaints.end() ? paints.asset().paints.size() : *next) - first;
     }
 
     ScratchPool pool;
@@ -262,10 +297,12 @@ private:
     std::set<std::uint32_t> firstPaints;  ///< of the maps that are drawn
     std::vector<Kept> maps;               ///< by command
     std::once_flag arePlacedMade;
-    std::shared_ptr<const PlacedMaps> placed;
+    std::shared_ptr<PlacedMaps> placed;
 };
 
 MapScanner::MapScanner(const Paints& paints) : impl_(std::make_unique<Impl>(paints)) {}
+MapScanner::MapScanner(const Paints& paints, MapScanner&& last, std::span<const MapChange> changes)
+    : impl_(std::make_unique<Impl>(paints, std::move(*last.impl_), changes)) {}
 MapScanner::~MapScanner() = default;
 MapScanner::MapScanner(MapScanner&&) noexcept = default;
 MapScanner& MapScanner::operator=(MapScanner&&) noexcept = default;

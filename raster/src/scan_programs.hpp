@@ -89,7 +89,8 @@ struct ProgramView {
                                          0.5 * (end - first - 1) * side, std::numbers::sqrt2 * side});
     }
     PixelMiddles middles() const {
-        return {inverse * (glm::dvec2(0.5) - view.toPixels[2]), inverse[0], inverse[1]};
+        return {inverse * (glm::dvec2(0.5) - view.toPixels[2]), inverse[0], inverse[1], view.width,
+                view.height};
     }
     /// The colours of pixels of a row, as they are summed.
     void rowColors(std::uint32_t paint, int row, int first, std::span<Float4> colors) const {

@@ -8,12 +8,14 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include <glm/vec4.hpp>
 
 #include <vtm/asset/asset.hpp>
+#include <vtm/asset/difference.hpp>
 #include <vtm/raster/scan.hpp>
 #include "asset/instances.hpp"
 #include "raster/blend.hpp"
@@ -28,11 +30,11 @@ namespace vtm::asset {
 class PlacedMaps {
 public:
     /// Must outlive it.
-    explicit PlacedMaps(const AssetView& asset) : asset_(asset), walk_(asset), maps_(asset.maps.size()) {
-        for (const Symbol& symbol : asset.symbols)
-            if (!maps_[symbol.map])
-                maps_[symbol.map].emplace(asset, asset.maps[symbol.map]);
-    }
+    explicit PlacedMaps(const AssetView& asset)
+        : PlacedMaps(asset, std::vector<std::optional<ScannedMap>>()) {}
+    /// Of the asset that follows that of `last`, whose boundaries it takes over.
+    PlacedMaps(const AssetView& asset, PlacedMaps&& last, std::span<const MapChange> changes)
+        : PlacedMaps(asset, takenOver(std::move(last.maps_), changes)) {}
 
     /// Of those that lie right in a map.
     struct Count {
@@ -58,6 +60,23 @@ public:
     }
 
 private:
+    /// `maps`: those that are made already.
+    PlacedMaps(const AssetView& asset, std::vector<std::optional<ScannedMap>> maps)
+        : asset_(asset), walk_(asset), maps_(std::move(maps)) {
+        maps_.resize(asset.maps.size());
+        for (const Symbol& symbol : asset.symbols)
+            if (!maps_[symbol.map])
+                maps_[symbol.map].emplace(asset, asset.maps[symbol.map]);
+    }
+    static std::vector<std::optional<ScannedMap>> takenOver(std::vector<std::optional<ScannedMap>> last,
+                                                            std::span<const MapChange> changes) {
+        std::vector<std::optional<ScannedMap>> maps(changes.size());
+        for (std::size_t i = 0; i < maps.size(); ++i)
+            if (changes[i].before < last.size() && changes[i].squares.empty())
+                maps[i] = std::exchange(last[changes[i].before], std::nullopt);
+        return maps;
+    }
+
     const AssetView asset_;
     const MapWalk walk_;
     std::vector<std::optional<ScannedMap>> maps_;

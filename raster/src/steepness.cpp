@@ -153,7 +153,7 @@ Slopes ofGradient(const RampChange& ramp, double offset, float opacity, bool isR
 template <class GradientOf>
 Slopes ofProgram(std::span<const Texel> data, const Paint& paint, GradientOf&& gradientOf) {
     Slopes all;
-    int layers = 0;
+    double joint = 0;  // of two layers each, the product
     for (std::uint32_t i = paint[0]; i < paint[0] + paint[1]; ++i) {
         limits::check();
         const auto in = recordAt<Instruction>(data, i);
@@ -166,14 +166,14 @@ Slopes ofProgram(std::span<const Texel> data, const Paint& paint, GradientOf&& g
             layer.slope = infinity;
         else if ((in.op == Op::Linear || in.op == Op::Radial) && in.opacity > 0)
             layer = gradientOf(in);
-        layers += layer.slope > 0;
+        if (all.slope > 0 && layer.slope > 0)
+            joint += all.slope * layer.slope;
         all.slope += layer.slope;
         all.variation += layer.variation;
         all.roughness += layer.roughness;
         all.mayJump |= layer.mayJump;
     }
-    if (layers > 1)
-        all.roughness = all.slope;
+    all.roughness = std::max(all.roughness, 2 * std::sqrt(joint));
     return all;
 }
 

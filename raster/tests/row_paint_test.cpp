@@ -68,7 +68,7 @@ struct RowCase {
     Asset asset;
     std::uint32_t paint;
 
-    RowCase(RandomRows& random, unsigned gradients) {
+    RowCase(RandomRows& random, unsigned gradients, Spread spread = Spread::Pad) {
         std::vector<Texel> data;
         std::vector<Instruction> program;
         const auto solid = [&] {
@@ -83,6 +83,7 @@ struct RowCase {
             const bool isRadial = random.below(2) == 0;
             const std::vector<GradientStop> stops = random.stops(i == 0 && random.below(2) == 0);
             Gradient gradient = random.gradient(isRadial);
+            gradient.spread = spread;
             gradient.stopCount = std::uint32_t(stops.size());
             program.push_back({isRadial ? Op::Radial : Op::Linear, Blend::Normal, random.number(0.5f, 1),
                                std::uint32_t(data.size())});
@@ -106,33 +107,39 @@ vec4 meanAt(const Paints& paints, std::uint32_t paint, vec2 middle) {
 
 float difference(const vec4& a, const Float4& b) { return largest(float4(a) - b); }
 
-/// The view: pixels whose middles are whole numbers of the picture.
-const PixelMiddles wholePixels{dvec2(0), dvec2(1, 0), dvec2(0, 1)};
+/// The view: pixels whose middles are whole numbers of the picture, about its origin.
+const PixelMiddles wholePixels{dvec2(-150, -60), dvec2(1, 0), dvec2(0, 1), 301, 121};
+vec2 middleOf(RowPaint::Pixel pixel) { return vec2(wholePixels.first) + vec2(pixel.x, pixel.row); }
 
-TEST(RowPaint, ColoursAreTheMeansOverPixels) {
-    RandomRows random(1);
+/// Compares colours with means; returns the share of pixels that have one.
+double knownShare(unsigned seed, Spread spread) {
+    RandomRows random(seed);
     constexpr int cases = 600, perCase = 8;
     int known = 0;
     for (int i = 0; i < cases; ++i) {
-        const RowCase one(random, 1);
+        const RowCase one(random, 1, spread);
         const Paints paints(one.asset);
         RowPaint rows;
         rows.prepare(paints, one.paint, wholePixels);
         for (int k = 0; k < perCase; ++k) {
-            const int x = random.whole(-40, 40), y = random.whole(-40, 40);
+            const RowPaint::Pixel pixel{random.whole(110, 190), random.whole(20, 100)};
             Float4 color;
-            if (!rows.at({x, y}, color))
+            if (!rows.at(pixel, color))
                 continue;
             ++known;
-            EXPECT_LE(difference(meanAt(paints, one.paint, vec2(x, y)), color), 0.2f / 255)
-                << "case " << i << ", pixel " << x << ", " << y;
+            EXPECT_LE(difference(meanAt(paints, one.paint, middleOf(pixel)), color), 0.2f / 255)
+                << "case " << i << ", pixel " << pixel.x << ", " << pixel.row;
         }
     }
-    EXPECT_GT(known, cases * perCase * 9 / 10);
+    return double(known) / (cases * perCase);
 }
 
-/// Visits pixels of a row and compares each with what it is alone.
-void expectRow(RowPaint& rows, int row, int first, int end) {
+TEST(RowPaint, ColoursAreTheMeansOverPixels) { EXPECT_GT(knownShare(1, Spread::Pad), 0.9); }
+TEST(RowPaint, RepeatedRampsAreKnownBesideTheirJumps) { EXPECT_GT(knownShare(2, Spread::Repeat), 0.35); }
+TEST(RowPaint, ReflectedRampsAreKnown) { EXPECT_GT(knownShare(3, Spread::Reflect), 0.35); }
+
+/// Visits pixels of a row and compares each with what it is alone. Returns how many are left to others.
+int expectRow(RowPaint& rows, int row, int first, int end) {
     int next = first, left = 0;
     const auto expectPixel = [&](int x, Float4 color) {
         EXPECT_EQ(x, next++);
@@ -157,19 +164,29 @@ void expectRow(RowPaint& rows, int row, int first, int end) {
             next = to;
         });
     EXPECT_EQ(next, end);
-    EXPECT_LT(left, end - first);
+    return left;
 }
 
 TEST(RowPaint, RowsHaveTheColoursOfTheirPixels) {
     RandomRows random(2);
+    int visited = 0, left = 0;
     for (int i = 0; i < 300; ++i) {
-        const RowCase one(random, 1 + random.below(3));
+        const Spread spread = std::array{Spread::Pad, Spread::Repeat, Spread::Reflect}[std::size_t(i % 3)];
+        const RowCase one(random, 1 + random.below(3), spread);
         const Paints paints(one.asset);
         RowPaint rows;
         rows.prepare(paints, one.paint, wholePixels);
-        if (rows.isReady())
-            expectRow(rows, random.whole(-60, 60), -150 + random.whole(0, 50), 150);
+        if (!rows.isReady())
+            continue;
+        const int first = random.whole(0, 50), end = 300;
+        const int leftOfRow = expectRow(rows, random.whole(0, 120), first, end);
+        if (spread == Spread::Pad) {
+            EXPECT_LT(leftOfRow, end - first);
+        }
+        visited += end - first;
+        left += leftOfRow;
     }
+    EXPECT_LT(left, visited / 4);
 }
 
 /// Whether anything is known of a gradient over the pixels of a row.
@@ -183,7 +200,7 @@ bool knowsAny(Gradient gradient, const std::vector<GradientStop>& stops, const P
     rows.prepare(paints, asset.maps[0].root.payload(), pixels);
     Float4 color;
     bool any = false;
-    for (int x = 0; x < 10; ++x)
+    for (int x = 0; x < pixels.width; ++x)
         any |= rows.at({x, 0}, color);
     return any;
 }
@@ -191,26 +208,39 @@ bool knowsAny(Gradient gradient, const std::vector<GradientStop>& stops, const P
 TEST(RowPaint, JumpsAndManyStopsInAPixelAreLeft) {
     const std::array<std::uint16_t, 4> red{65535, 0, 0, 65535}, green{0, 65535, 0, 65535};
     Gradient gradient;
-    gradient.matrix = {0.01f, 0, 0, 0.01f, 0.45f, 0};  // ten pixels about the middle
-    EXPECT_TRUE(knowsAny(gradient, {{0, red, 0}, {1, green, 0}}, wholePixels));
+    gradient.matrix = {0.01f, 0, 0, 0.01f, 0.45f, 0};
+    const PixelMiddles aboutMiddle{dvec2(0), dvec2(1, 0), dvec2(0, 1), 10, 1};
+    EXPECT_TRUE(knowsAny(gradient, {{0, red, 0}, {1, green, 0}}, aboutMiddle));
     std::vector<GradientStop> comb;
     for (int i = 0; i <= 50; ++i)
         comb.push_back({0.4f + 0.004f * float(i), i % 2 == 0 ? red : green, 0});
-    EXPECT_FALSE(knowsAny(gradient, comb, wholePixels));
-    const PixelMiddles onJump{dvec2(5, 0), dvec2(0.02, 0), dvec2(1, 0)};
+    EXPECT_FALSE(knowsAny(gradient, comb, aboutMiddle));
+    const PixelMiddles onJump{dvec2(5, 0), dvec2(0.02, 0), dvec2(1, 0), 10, 1};
     EXPECT_FALSE(knowsAny(gradient, {{0, red, 0}, {0.5f, red, 0}, {0.5f, green, 0}}, onJump));
+}
+
+TEST(RowPaint, PeriodsOfFewPixelsOrInGreatNumberAreLeft) {
+    const std::array<std::uint16_t, 4> red{65535, 0, 0, 65535}, green{0, 65535, 0, 65535};
+    Gradient gradient;
     gradient.spread = Spread::Reflect;
-    EXPECT_FALSE(knowsAny(gradient, {{0, red, 0}, {1, green, 0}}, wholePixels));
+    const auto knows = [&](float period, int width) {
+        gradient.matrix = {1 / period, 0, 0, 1 / period, 0, 0};
+        return knowsAny(gradient, {{0, red, 0}, {1, green, 0}},
+                        {dvec2(0), dvec2(1, 0), dvec2(0, 1), width, 10});
+    };
+    EXPECT_TRUE(knows(20, 100));
+    EXPECT_FALSE(knows(12, 100));
+    EXPECT_FALSE(knows(20, 20000));
 }
 
 TEST(RowPaint, PixelsBeyondSinglePrecisionEnd) {
     const std::array<std::uint16_t, 4> red{65535, 0, 0, 65535}, green{0, 65535, 0, 65535};
     for (const double far : {1e300, -1e300}) {
-        const PixelMiddles pixels{dvec2(far, 0), dvec2(1, 0), dvec2(0, 1)};
+        const PixelMiddles pixels{dvec2(far, 0), dvec2(1, 0), dvec2(0, 1), 10, 1};
         EXPECT_TRUE(knowsAny({}, {{0, red, 0}, {1, green, 0}}, pixels));
     }
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_FALSE(knowsAny({}, {{0, red, 0}, {1, green, 0}}, {dvec2(0), dvec2(nan, 0), dvec2(0, 1)}));
+    EXPECT_FALSE(knowsAny({}, {{0, red, 0}, {1, green, 0}}, {dvec2(0), dvec2(nan, 0), dvec2(0, 1), 10, 1}));
 }
 
 }  // namespace

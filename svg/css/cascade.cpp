@@ -50,22 +50,27 @@ public:
         collect(element.name);
         if (const auto id = element.find("id"))
             collect(*id);
+        for (Cursor classes(element.get("class")); !classes.atEnd();)
+            collect(classes.nextInList());
         std::sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
             return std::tuple(a.layer, a.selector->specificity, a.order) <
                    std::tuple(b.layer, b.selector->specificity, b.order);
         });
+        const auto repeated = std::ranges::unique(found, {}, &Candidate::order);
+        found.erase(repeated.begin(), repeated.end());
         return found;
     }
 
 private:
     using Key = std::string_view;
 
-    /// An id, else a type, else nothing. An id that is spelt like a type does no harm: the selector
-    /// is compared in full.
+    /// An id, else a class, else a type, else nothing. An id that is spelt like a class or a type does no
+    /// harm: the selector is compared in full.
     static Key keyOf(const Compound& last) {
-        for (const Condition& condition : last.conditions)
-            if (condition.kind == ConditionKind::Id)
-                return condition.value;
+        for (const ConditionKind kind : {ConditionKind::Id, ConditionKind::Class})
+            for (const Condition& condition : last.conditions)
+                if (condition.kind == kind)
+                    return condition.value;
         return last.type;
     }
 

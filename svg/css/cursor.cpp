@@ -137,6 +137,14 @@ std::string_view Cursor::word() {
     return word;
 }
 
+std::string_view Cursor::nextInList() {
+    skipSpaces();
+    const auto end = std::find_if(rest_.begin(), rest_.end(), isSpace);
+    const std::string_view found = rest_.substr(0, std::size_t(end - rest_.begin()));
+    advance(found.size());
+    return found;
+}
+
 std::string_view Cursor::unit() {
     std::size_t size = 0;
     while (size < rest_.size() && lower(rest_[size]) >= 'a' && lower(rest_[size]) <= 'z')

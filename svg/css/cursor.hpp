@@ -47,6 +47,8 @@ public:
     std::string_view identifier();
     /// Up to a space, '/' or ','; possibly empty.
     std::string_view word();
+    /// Past spaces, up to the next one; empty where nothing comes.
+    std::string_view nextInList();
     /// Letters, possibly none: the unit behind a number, which a minus sign would end.
     std::string_view unit();
     /// Up to `end`, which is stepped over; up to the text's end where it does not come.

@@ -355,15 +355,9 @@ std::optional<std::vector<Selector>> parseList(std::string_view text, Surroundin
 // ---- Matching -------------------------------------------------------------------------------------
 
 bool hasWord(std::string_view list, std::string_view word) {
-    for (Cursor cursor(list); !cursor.atEnd();) {
-        cursor.skipSpaces();
-        const std::string_view rest = cursor.rest();
-        const auto end = std::find_if(rest.begin(), rest.end(), isSpace);
-        const std::size_t size = static_cast<std::size_t>(end - rest.begin());
-        if (size > 0 && rest.substr(0, size) == word)
+    for (Cursor cursor(list); !cursor.atEnd();)
+        if (const std::string_view found = cursor.nextInList(); !found.empty() && found == word)
             return true;
-        cursor.advance(size);
-    }
     return false;
 }
 

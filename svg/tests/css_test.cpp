@@ -15,6 +15,25 @@ constexpr int red = 0xff0000, lime = 0x00ff00, blue = 0x0000ff, black = 0;
 
 TEST(Css, SelectsByType) { EXPECT_EQ(fillUnder("rect { fill: lime }"), lime); }
 TEST(Css, SelectsByClass) { EXPECT_EQ(fillUnder(".b { fill: lime }"), lime); }
+TEST(Css, SelectsByClassesAndMore) {
+    EXPECT_EQ(fillUnder(".b.a { fill: lime }"), lime);
+    EXPECT_EQ(fillUnder(".b.c { fill: lime }"), black);
+    EXPECT_EQ(fillUnder("rect.b { fill: lime }"), lime);
+    EXPECT_EQ(fillUnder("circle.b { fill: lime }"), black);
+    EXPECT_EQ(fillUnder(".b#r { fill: lime }"), lime);
+    EXPECT_EQ(fillUnder(":is(.b) { fill: lime }"), lime);
+}
+TEST(Css, NamesMayBeOfClassesTypesAndIdsAtOnce) {
+    const auto fill = [](const std::string& sheet) {
+        return fillOf("<style>" + sheet +
+                      "</style><rect id='rect' class='\nrect\trect x ' width='9' height='9'/>");
+    };
+    EXPECT_EQ(fill(".rect { fill: lime }"), lime);
+    EXPECT_EQ(fill("rect { fill: red } .rect { fill: lime }"), lime);
+    EXPECT_EQ(fill("#rect { fill: lime } .rect { fill: red } rect { fill: blue }"), lime);
+    EXPECT_EQ(fill(".x { fill: red } .rect { fill: lime }"), lime) << "the later one";
+    EXPECT_EQ(fill(".rect { fill: lime !important } .x { fill: red }"), lime);
+}
 TEST(Css, SelectsById) { EXPECT_EQ(fillUnder("#r { fill: lime }"), lime); }
 TEST(Css, SelectsAll) { EXPECT_EQ(fillUnder("* { fill: lime }"), lime); }
 TEST(Css, SelectsByAttribute) { EXPECT_EQ(fillUnder("[width='9'][height] { fill: lime }"), lime); }

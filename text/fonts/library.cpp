@@ -192,6 +192,10 @@ const std::vector<const FaceEntry*>& FontLibrary::family(const std::string& name
 std::vector<const FaceEntry*> FontLibrary::aliasOf(const std::string& name) const {
     if (!systemFonts_)
         return {};
+    return aliases_.get(familyKey(name), [&] { return findAlias(name); });
+}
+
+std::vector<const FaceEntry*> FontLibrary::findAlias(const std::string& name) const {
     // Rules put families that are equal or preferred next to the name and others at the end, behind `last`.
     const std::string last = "vtm-last-family";
     FontQuery query;
@@ -208,16 +212,20 @@ std::vector<const FaceEntry*> FontLibrary::aliasOf(const std::string& name) cons
 }
 
 std::vector<const FaceEntry*> FontLibrary::substitutes(const FontQuery& query) const {
-    if (systemFonts_) {
-        const FcPatternOwner pattern = patternOf(query);
-        FcConfigSubstitute(config_.get(), pattern.get(), FcMatchPattern);
-        FcDefaultSubstitute(pattern.get());
-        return sorted(pattern.get());
-    }
+    if (systemFonts_)
+        return substitutes_.get({query.families, query.weight, query.stretch, query.slant, query.language},
+                                [&] { return findSubstitutes(query); });
     std::vector<const FaceEntry*> all;
     for (const auto& entry : entries_)
         all.push_back(entry.get());
     return all;
+}
+
+std::vector<const FaceEntry*> FontLibrary::findSubstitutes(const FontQuery& query) const {
+    const FcPatternOwner pattern = patternOf(query);
+    FcConfigSubstitute(config_.get(), pattern.get(), FcMatchPattern);
+    FcDefaultSubstitute(pattern.get());
+    return sorted(pattern.get());
 }
 
 std::vector<const FaceEntry*> FontLibrary::sorted(FcPattern* pattern) const {

@@ -2,10 +2,14 @@
 /// The font files of a FontOptions as fontconfig lists them.
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
+#include <tuple>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "text/fonts/face_entry.hpp"
@@ -16,7 +20,36 @@ namespace vtm::text {
 /// The key of a family's name: case does not matter.
 std::string familyKey(const std::string& family);
 
-/// Shared by all font sets of equal directories. Immutable.
+/// Answers to what was asked before, by any thread.
+template <class Key>
+class FaceAnswers {
+public:
+    using Faces = std::vector<const FaceEntry*>;
+
+    /// find(): finds those that are not known.
+    template <class Find>
+    Faces get(const Key& key, Find&& find) {
+        {
+            const std::lock_guard lock(mutex_);
+            if (const auto known = answers_.find(key); known != answers_.end())
+                return known->second;
+        }
+        Faces found = find();
+        const std::lock_guard lock(mutex_);
+        if (answers_.size() == most)
+            answers_.clear();
+        return answers_.try_emplace(key, std::move(found)).first->second;
+    }
+
+private:
+    static constexpr std::size_t most = 256;  // a process may go through many documents
+
+    std::mutex mutex_;
+    std::map<Key, Faces> answers_;
+};
+
+/// Shared by all font sets of equal directories. Immutable, but for what it remembers of fontconfig's
+/// answers: rules and sorting take longer than most documents' texts.
 class FontLibrary {
 public:
     /// The library of these options; made where there is none yet.
@@ -39,11 +72,19 @@ private:
     void list(const FcFontSet* set);
     std::vector<const FaceEntry*> sorted(FcPattern* pattern) const;
 
+    std::vector<const FaceEntry*> findAlias(const std::string& name) const;
+    std::vector<const FaceEntry*> findSubstitutes(const FontQuery& query) const;
+
+    /// What patternOf() takes of a query.
+    using PatternKey = std::tuple<std::vector<std::string>, double, double, Slant, std::string>;
+
     bool systemFonts_;
     FcConfiguration config_;
     std::vector<std::unique_ptr<const FaceEntry>> entries_;
     std::unordered_map<std::string, std::vector<const FaceEntry*>> families_;
     std::map<std::pair<std::string, unsigned>, const FaceEntry*> byFile_;
+    mutable FaceAnswers<std::string> aliases_;
+    mutable FaceAnswers<PatternKey> substitutes_;
 };
 
 }  // namespace vtm::text

@@ -2,9 +2,12 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <string>
+#include <vector>
 
 #include <hb-ot.h>
 
+#include "text/fonts/library.hpp"
 #include "text/tests/support.hpp"
 
 namespace vtm::text {
@@ -54,6 +57,31 @@ TEST(FontSet, WithoutFontsThereIsNone) {
     FontSet set(optionsOf("/nowhere/at/all"));
     EXPECT_EQ(set.primary(family("serif")), nullptr);
     EXPECT_EQ(set.covering(family("serif"), U"a"), nullptr);
+}
+
+TEST(FontLibrary, RemembersTheAnswerToEachQuestion) {
+    FontQuery bold = family("Absent", 700), slanted = family("Absent"), turkish = family("Absent"),
+              wide = family("Absent");
+    slanted.slant = Slant::Italic;
+    turkish.language = "tr";
+    wide.stretch = 200;
+    const std::vector<FontQuery> queries{family("Absent"), family("serif"), bold, slanted, turkish, wide};
+    const auto files = [](const std::vector<const FaceEntry*>& faces) {
+        std::vector<std::string> names;
+        for (const FaceEntry* face : faces)
+            names.push_back(face->file + "#" + std::to_string(face->index));
+        return names;
+    };
+    const FontLibrary library(FontOptions{});
+    for (int round = 0; round < 2; ++round)
+        for (const FontQuery& query : queries) {
+            const FontLibrary other(FontOptions{});
+            EXPECT_EQ(files(library.substitutes(query)), files(other.substitutes(query)));
+            EXPECT_EQ(files(library.aliasOf(query.families[0])), files(other.aliasOf(query.families[0])));
+        }
+    for (int i = 0; i < 600; ++i)  // more than it remembers
+        library.aliasOf("Absent " + std::to_string(i));
+    EXPECT_EQ(files(library.aliasOf("serif")), files(FontLibrary(FontOptions{}).aliasOf("serif")));
 }
 
 TEST(FontSet, SystemFontsStandInForAbsentFamilies) {

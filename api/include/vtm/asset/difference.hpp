@@ -3,6 +3,7 @@
 /// what changed, and only what looks different is drawn again.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <vtm/asset/asset.hpp>
@@ -14,9 +15,17 @@ struct Area {
     double left = 0, top = 0, right = 0, bottom = 0;
 };
 
+/// What a map is of the asset before.
+struct MapChange {
+    static constexpr std::uint32_t isNew = 0xFFFFFFFF;
+    std::uint32_t before = isNew;  ///< its number there; no two maps have the same
+    std::vector<Cell> squares;     ///< whose subtrees changed; as Difference::squares
+    bool paints = true;            ///< its paints changed, or their data, images or materials
+};
+
 /// Between two assets of one size that follow each other (compiler::Session::difference()).
 struct Difference {
-    bool everything = true;  ///< nothing can be taken over; else what follows holds of records
+    bool everything = true;  ///< nothing can be taken over but images and `maps`
     /// Squares of the first map whose subtrees changed. The rest of the tree has the same leaves and pieces,
     /// with the same numbers of paints; records may stand elsewhere. Assets have one map then, and no
     /// instances.
@@ -26,6 +35,9 @@ struct Difference {
     /// What may look different, also if nothing can be taken over. Nothing does outside; boxes may overlap.
     std::vector<Area> areas;
     int pixelsAround = 0;  ///< so many pixels around them may look different too: filters resample
+    /// Of pictures with filters, where `everything` is set: by map of the next asset, what can be taken over
+    /// all the same (asset::Evaluator::update). Empty: nothing.
+    std::vector<MapChange> maps;
 };
 
 }  // namespace vtm::asset
