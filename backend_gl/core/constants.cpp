@@ -46,7 +46,6 @@ std::string tiles() {
            constant("lowLengthBits", lowLengthBits) + constant("firstTexelBits", firstTexelBits) +
            constant("gridShift", gridShift) + constant("plainTexelBits", plainTexelBits) +
            constant("radialBit", radialBit) + constant("plainTag", plainTag) +
-           fmt::format("const float blockSide = {:.1f};\n", double(blockSide)) +
            fmt::format("const float tileStep = {:.17g};\nconst float tileSlopeScale = {:.1f};\n",
                        std::ldexp(1.0, -int(tileStepLog2)), tileSlopeScale) +
            fmt::format("const vec2 referenceShift = vec2({}, {});\n", referenceShiftX, referenceShiftY);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include <glm/common.hpp>
 #include <glm/mat2x2.hpp>
@@ -21,48 +22,59 @@ inline constexpr int cellsPerWindow = 2 * cellsPerTile;
 
 /// The centres of a block's pixels lie in a parallelogram, which is the same for all blocks of a view. The
 /// cells that it meets depend on where in a cell its middle lies: they are found for sixteen squares of that,
-/// and are a few more.
+/// when a block first needs them, and are a few more.
 class BlockShape {
 public:
-    explicit BlockShape(const glm::dmat2& pixelsToTiles) {
-        const Parallelogram all(reach * pixelsToTiles[0], reach * pixelsToTiles[1]);
-        half_ = all.half();
-        for (std::size_t i = 0; i < cells_.size(); ++i)
-            cells_[i] = cellsOf(all, dvec2(i % places, i / places) / double(places));
-    }
+    BlockShape(const glm::dmat2& pixelsToTiles, int blockSide)
+        : all_(reach(blockSide) * pixelsToTiles[0], reach(blockSide) * pixelsToTiles[1]),
+          halfColumns_(int(std::ceil(all_.half().x))) {}
 
     /// Half its width and height, cells.
-    glm::dvec2 half() const { return half_; }
+    glm::dvec2 half() const { return all_.half(); }
 
-    /// Calls visit(row, columns) for each row of the window that a block meets, in which a column is a bit.
-    /// `middle`: the block's, in cells from the window's corner, at least half its size.
-    template <class Visit>
-    void forEachRow(glm::dvec2 middle, Visit&& visit) const {
-        const glm::ivec2 cell(middle), place(double(places) * (middle - glm::dvec2(cell)));
-        const Cells& cells = cells_[std::size_t(place.y * places + place.x)];
-        const int first = std::max(cell.y + cells.firstRow, 0),
-                  end = std::min(cell.y + cells.endRow, cellsPerWindow);
-        for (int row = first; row < end; ++row) {
-            const std::uint64_t columns = cells.columns[std::size_t(row - cell.y + centre)];
-            visit(row, std::uint32_t(columns << cell.x >> centre));
+    /// A block has no more rows: it is a tile high, and its middle may be anywhere in a square.
+    static constexpr int maxRows = cellsPerTile + 4;
+
+    /// Where a block lies in a window.
+    struct Place {
+        const std::array<std::uint32_t, maxRows>* columns;
+        int firstRow;   ///< of maxRows, at least -1
+        int moved;      ///< columns to the right, at least -1
+
+        /// Of the i-th row: those of the window that the block meets, in which a column is a bit.
+        std::uint32_t columnsOf(std::size_t i) const {
+            return (*columns)[i] << std::max(moved, 0) >> std::max(-moved, 0);
         }
+        /// `rows`: of cells in the window, from firstRow on.
+        bool meets(const std::uint32_t* rows) const {
+            std::uint32_t met = 0;
+            for (std::size_t i = 0; i < maxRows; ++i)
+                met |= rows[i] & columnsOf(i);
+            return met != 0;
+        }
+    };
+    /// `middle`: the block's, in cells from the window's corner, at least half its size.
+    Place placeOf(glm::dvec2 middle) {
+        const glm::ivec2 cell(middle), part(double(parts) * (middle - glm::dvec2(cell)));
+        std::optional<Cells>& cells = cells_[std::size_t(part.y * parts + part.x)];
+        if (!cells)
+            cells = cellsOf(dvec2(part) / double(parts));
+        return {&cells->columns, cell.y + cells->firstRow, cell.x - halfColumns_};
     }
 
 private:
     using dvec2 = glm::dvec2;
 
     /// Squares of a cell a side.
-    static constexpr int places = 4;
+    static constexpr int parts = 4;
     /// From the middle to the outermost centres, as if tiles were as wide as cells. Rounding moves pixels by
     /// less than the hundredth.
-    static constexpr double reach = (0.5 * blockSide - 0.5 + 0.01) * cellsPerTile;
-    /// Of the cells around the one with the middle: its column and row. A block reaches less than half a tile
-    /// and a cell from there.
-    static constexpr int centre = cellsPerTile;
+    static double reach(int blockSide) { return (0.5 * blockSide - 0.5 + 0.01) * cellsPerTile; }
 
     struct Cells {
-        int firstRow = 0, endRow = 0;  ///< from the one with the middle
-        std::array<std::uint32_t, 2 * centre> columns{};
+        int firstRow = 0;  ///< from the one with the middle
+        /// From halfColumns_ to the left of the one with the middle on.
+        std::array<std::uint32_t, maxRows> columns{};
     };
 
     /// Around the origin.
@@ -99,23 +111,23 @@ private:
     };
 
     /// With the middle in the square from `place` on.
-    static Cells cellsOf(const Parallelogram& all, dvec2 place) {
-        const dvec2 end = place + 1.0 / places;
-        Cells cells;
-        cells.firstRow = int(std::floor(place.y - all.half().y));
-        cells.endRow = int(std::floor(end.y + all.half().y)) + 1;
-        for (int row = cells.firstRow; row < cells.endRow; ++row) {
-            const double low = row - end.y, high = row + 1 - place.y;
-            const int first = int(std::floor(place.x - all.farthest(-high, -low))) + centre,
-                      last = int(std::floor(end.x + all.farthest(low, high))) + centre;
-            cells.columns[std::size_t(row + centre)] =
-                (~std::uint32_t(0) << first) & (~std::uint32_t(0) >> (31 - last));
+    Cells cellsOf(dvec2 place) const {
+        const dvec2 end = place + 1.0 / parts;
+        Cells cells{.firstRow = int(std::floor(place.y - half().y))};
+        const int rows = int(std::floor(end.y + half().y)) + 1 - cells.firstRow;
+        for (int i = 0; i < rows; ++i) {
+            const double low = cells.firstRow + i - end.y, high = cells.firstRow + i + 1 - place.y;
+            const int first = int(std::floor(place.x - all_.farthest(-high, -low))) + halfColumns_,
+                      last = int(std::floor(end.x + all_.farthest(low, high))) + halfColumns_;
+            cells.columns[std::size_t(i)] =
+                (~std::uint32_t(0) << first) & (~std::uint32_t(0) >> (cellsPerWindow - 1 - last));
         }
         return cells;
     }
 
-    dvec2 half_;
-    std::array<Cells, places * places> cells_;
+    Parallelogram all_;
+    int halfColumns_;
+    std::array<std::optional<Cells>, parts * parts> cells_;
 };
 
 }  // namespace vtm::gl

@@ -9,37 +9,20 @@
 #include <glm/common.hpp>
 
 #include "backend_gl/tiles/block_shape.hpp"
+#include "backend_gl/tiles/tile_windows.hpp"
 
 namespace vtm::gl {
 
 namespace {
 
 using glm::dvec2;
-using glm::i64vec2;
 using glm::ivec2;
 using Placed = Atlas::Placed;
 
-ivec2 firstCorner(const PixelBox& box) { return box.min / blockSide * blockSide; }
-
-PixelBox pixelsOf(ivec2 corner, const PixelBox& box) {
-    return {glm::max(corner, box.min), glm::min(corner + blockSide, box.max)};
-}
-
-/// Calls visit(corner) for each block that a box meets, row by row, and endRow() after each row.
-template <class Visit, class EndRow>
-void forEachBlock(const PixelBox& box, Visit&& visit, EndRow&& endRow) {
-    const ivec2 first = firstCorner(box);
-    for (int y = first.y; y < box.max.y; y += blockSide) {
-        for (int x = first.x; x < box.max.x; x += blockSide)
-            visit(ivec2(x, y));
-        endRow();
-    }
-}
-
-BlockVertex vertexAt(ivec2 corner) {
+BlockVertex vertexAt(ivec2 corner, int side) {
     BlockVertex vertex{};
-    vertex.middle[0] = float(corner.x + blockSide / 2);
-    vertex.middle[1] = float(corner.y + blockSide / 2);
+    vertex.middle[0] = float(corner.x + side / 2);
+    vertex.middle[1] = float(corner.y + side / 2);
     return vertex;
 }
 
@@ -49,59 +32,113 @@ void put(BlockVertex& vertex, std::size_t i, const Placed& tile) {
 }
 
 /// The blocks with crowded cells, whose pixels stand in a texture of blocks (ScannedPixels).
-void putScanned(Blocks& blocks, BlockVertex& vertex, ivec2 corner, const PixelBox& box) {
-    const ivec2 offset = scannedPlace(blocks.crowded.size(), box) - corner;
+void putScanned(Blocks& blocks, BlockVertex& vertex, ivec2 corner, const TileRaster& raster) {
+    const ivec2 offset = scannedPlace(blocks.crowded.size(), raster.box(), raster.grid()) - corner;
     vertex.more = {std::uint32_t(offset.x), std::uint32_t(offset.y), 0, 0};
     blocks.crowded.push_back(corner);
 }
 
-/// What a block meets of a tile.
-struct MetTile {
-    const Placed* tile = nullptr;  ///< null: nothing
-    bool mixed = false, plain = false, run = false, crowded = false;
-    unsigned column = 0, row = 0;  ///< one of the cells
+/// Bits, one for each CellKind.
+class Kinds {
+public:
+    Kinds() = default;
+    explicit Kinds(std::uint8_t bits) : bits_(bits) {}
+
+    bool any() const { return bits_ != 0; }
+    bool has(CellKind kind) const { return (bits_ >> unsigned(kind) & 1) != 0; }
+    bool havePrograms() const { return has(CellKind::Plain) || has(CellKind::Run); }
+    void add(CellKind kind) { bits_ = std::uint8_t(bits_ | 1u << unsigned(kind)); }
+    void add(Kinds other) { bits_ = std::uint8_t(bits_ | other.bits_); }
+
+private:
+    std::uint8_t bits_ = 0;
 };
+
+Kinds kindsOf(const Placed& tile) { return Kinds(tile.kinds); }
 
 struct Block {
     ivec2 corner;
-    i64vec2 least;                 ///< of four tiles the first
-    std::array<MetTile, 4> tiles;  ///< the others have x, y or both larger by 1
-
-    bool any(bool MetTile::*what) const {
-        return std::ranges::any_of(tiles, [&](const MetTile& met) { return met.*what; });
-    }
+    ivec2 window;
+    BlockShape::Place place;
+    std::array<const Placed*, 4> tiles;  ///< null: not met, or beyond the region
+    ivec2 middle;                        ///< in which cell of the window it lies
+    Kinds near, kinds;                   ///< of the tiles' cells, of its own
 };
 
-/// Colours for rectangles, block by block: those beside each other that are alike become one.
+/// Of a block's cells in one tile.
+struct MetCell {
+    const Placed* tile = nullptr;  ///< null: there is none
+    unsigned column = 0, row = 0;
+};
+
+/// Rectangles of one colour: blocks beside each other that are alike become one.
 class FlatRuns {
 public:
-    using Color = std::array<float, 4>;
+    /// `words`: as cells have them.
+    struct Paint {
+        std::uint32_t number;
+        PaintWords words;
+        bool operator==(const Paint&) const = default;
+    };
 
-    explicit FlatRuns(std::vector<FlatVertex>& vertices) : vertices_(vertices) {}
+    FlatRuns(std::vector<FlatVertex>& vertices, std::span<const asset::Paint> paints, int side)
+        : vertices_(vertices), paints_(paints), side_(side) {}
 
-    void add(ivec2 corner, const Color& color) {
-        if (width_ != 0 && (corner.x != first_.x + width_ || color != color_))
+    void add(ivec2 corner, const Paint& paint) {
+        if (width_ != 0 && (corner.x != first_.x + width_ || paint != paint_))
             end();
         if (width_ == 0)
             first_ = corner;
-        width_ += blockSide;
-        color_ = color;
+        width_ += side_;
+        paint_ = paint;
     }
     void end() {
-        const ivec2 size(std::exchange(width_, 0), blockSide);
+        const ivec2 size(std::exchange(width_, 0), side_);
         if (size.x == 0)
             return;
+        FlatVertex vertex = ofColor();
         for (const ivec2 c : {ivec2(0, 0), ivec2(1, 0), ivec2(0, 1), ivec2(0, 1), ivec2(1, 0), ivec2(1, 1)}) {
             const ivec2 at = first_ + c * size;
-            vertices_.push_back({{float(at.x), float(at.y)}, {color_[0], color_[1], color_[2], color_[3]}});
+            vertex.position[0] = float(at.x);
+            vertex.position[1] = float(at.y);
+            vertices_.push_back(vertex);
         }
     }
 
 private:
+    FlatVertex ofColor() const {
+        const asset::Paint& paint = paints_[paint_.number];
+        FlatVertex vertex{};
+        for (unsigned c = 0; c < 4; ++c)
+            vertex.color[c] = asset::isProgram(paint)
+                                  ? float(paint_.words[c / 2] >> c % 2 * 16 & 0xFFFF) / 65535
+                                  : std::bit_cast<float>(paint[c]);
+        return vertex;
+    }
+
     std::vector<FlatVertex>& vertices_;
+    std::span<const asset::Paint> paints_;
+    int side_;
     ivec2 first_{0};
     int width_ = 0;
-    Color color_{};
+    Paint paint_{};
+};
+
+/// Blocks of a row that are drawn.
+class DrawnBox {
+public:
+    DrawnBox(PixelBox& drawn, const TileRaster& raster) : drawn_(drawn), raster_(raster) {}
+
+    void add(ivec2 corner) {
+        row_ = row_.empty() ? PixelBox{corner, corner + raster_.grid().side}
+                            : PixelBox{row_.min, corner + raster_.grid().side};
+    }
+    void endRow() { drawn_ = drawn_.joined(std::exchange(row_, {}).intersection(raster_.box())); }
+
+private:
+    PixelBox& drawn_;
+    const TileRaster& raster_;
+    PixelBox row_;
 };
 
 class Sorter {
@@ -110,171 +147,183 @@ public:
            const std::vector<const Placed*>& tiles)
         : raster_(raster),
           atlas_(atlas),
-          paints_(paints),
-          tiles_(tiles),
-          shape_(raster.pixelsToTiles()),
-          runs_(blocks_.flat) {}
+          side_(raster.grid().side),
+          windows_(raster.region(), tiles),
+          shape_(raster.pixelsToTiles(), side_),
+          pixelsToTiles_(raster.pixelsToTiles()),
+          halfInTiles_(shape_.half() / double(cellsPerTile)),
+          firstLeast_(raster.toTile(dvec2(0.5 * side_)) - halfInTiles_ - dvec2(raster.region().min - std::int64_t(1))),
+          runs_(blocks_.flat, paints, side_),
+          drawn_(blocks_.drawn, raster) {}
 
     Blocks sorted() {
-        forEachBlock(
-            raster_.box(), [&](ivec2 corner) { add(blockAt(corner)); }, [&] { runs_.end(); });
+        const PixelBox& box = raster_.box();
+        const ivec2 first = raster_.grid().cornerAt(box.min);
+        for (ivec2 corner = first; corner.y < box.max.y; corner.y += side_) {
+            for (corner.x = first.x; corner.x < box.max.x; corner.x += side_)
+                if (const std::optional<Block> block = blockAt(corner))
+                    add(*block);
+            runs_.end();
+            drawn_.endRow();
+        }
         return std::move(blocks_);
     }
 
 private:
-    const Placed* tileAt(i64vec2 at) const {
-        const auto& [level, min, max] = raster_.region();
-        const bool inside = at.x >= min.x && at.y >= min.y && at.x < max.x && at.y < max.y;
-        return inside ? tiles_[std::size_t((at.y - min.y) * (max.x - min.x) + at.x - min.x)] : nullptr;
-    }
-
-    Block blockAt(ivec2 corner) const {
-        const dvec2 middle = raster_.toTile(dvec2(corner) + 0.5 * blockSide);
-        Block block{corner, i64vec2(glm::floor(middle - shape_.half() / double(cellsPerTile))), {}};
-        std::array<const Placed*, 4> near;
-        for (std::size_t i = 0; i < 4; ++i)
-            near[i] = tileAt(block.least + i64vec2(i % 2, i / 2));
-        shape_.forEachRow((middle - dvec2(block.least)) * double(cellsPerTile),
-                          [&](int row, std::uint32_t columns) {
-                              for (std::size_t side = 0; side < 2; ++side) {
-                                  const std::size_t i = std::size_t(row / cellsPerTile) * 2 + side;
-                                  const auto half = std::uint16_t(columns >> side * cellsPerTile);
-                                  if (half != 0 && near[i] != nullptr)
-                                      meet(block.tiles[i], *near[i], unsigned(row % cellsPerTile), half);
-                              }
-                          });
+    /// Nothing where there are no tiles.
+    std::optional<Block> blockAt(ivec2 corner) {
+        const dvec2 least = firstLeast_ + pixelsToTiles_ * dvec2(corner);
+        const ivec2 size = windows_.size();
+        if (!(least.x >= 0 && least.y >= 0 && least.x < size.x && least.y < size.y))
+            return std::nullopt;
+        const ivec2 window(least);
+        const dvec2 inWindow = least - dvec2(window);
+        std::array<const Placed*, 4> tiles = windows_.tilesAt(window);
+        const dvec2 end = inWindow + 2.0 * halfInTiles_;
+        if (end.x < 1)
+            tiles[1] = tiles[3] = nullptr;
+        if (end.y < 1)
+            tiles[2] = tiles[3] = nullptr;
+        const dvec2 middle = (inWindow + halfInTiles_) * double(cellsPerTile);
+        Block block{corner, window, shape_.placeOf(middle), tiles, ivec2(middle), {}, {}};
+        bool any = false;
+        for (const Placed* tile : tiles)
+            if (tile != nullptr) {
+                any = true;
+                block.near.add(kindsOf(*tile));
+            }
+        if (!any)
+            return std::nullopt;
+        for (const CellKind kind : cellKinds)
+            if (block.near.has(kind) && windows_.meets(window, kind, block.place))
+                block.kinds.add(kind);
         return block;
     }
 
-    static void meet(MetTile& met, const Placed& tile, unsigned row, std::uint16_t columns) {
-        if (met.tile == nullptr)
-            met = {&tile, false, false, false, false, unsigned(std::countr_zero(columns)), row};
-        met.mixed = met.mixed || (tile.mixed[row] & columns) != 0;
-        met.plain = met.plain || (tile.plain[row] & columns) != 0;
-        met.run = met.run || (tile.run[row] & columns) != 0;
-        met.crowded = met.crowded || (tile.crowded[row] & columns) != 0;
-    }
-
     void add(const Block& block) {
-        const MetTile* const some = someTile(block);
-        if (some == nullptr)
+        if (block.kinds.has(CellKind::Crowded) || block.kinds.has(CellKind::Mixed))
+            return addMixed(block);
+        const MetCell some = someCell(block);
+        if (some.tile == nullptr)
             return;
-        const bool crowded = block.any(&MetTile::crowded);
-        if (crowded || block.any(&MetTile::mixed))
-            return addMixed(block, *some, crowded);
         // No boundary, so one paint, of which each tile has words of its own.
-        const asset::Texel& cell = cellOf(*some);
+        const asset::Texel& cell = cellOf(some);
         const std::uint32_t paint = cell[0] & 0xFFFF;
         if (paint == 0)
             return;
-        if (hasPrograms(block))
-            return addOfOneProgram(block, *some);
-        touch(block);
-        runs_.add(block.corner, colorOf(paint, {cell[1], cell[2]}));
+        if (block.kinds.havePrograms())
+            return addOfOneProgram(block);
+        drawn_.add(block.corner);
+        runs_.add(block.corner, {paint, {cell[1], cell[2]}});
     }
 
-    void addMixed(const Block& block, const MetTile& some, bool crowded) {
-        touch(block);
-        BlockVertex vertex = vertexOf(block, some);
-        BlockWork work = hasPrograms(block) ? workOfPrograms(block, true)
-                         : crowded          ? BlockWork()
-                                            : workOfColors(block);
+    void addMixed(const Block& block) {
+        const bool crowded = block.kinds.has(CellKind::Crowded);
+        BlockWork work = block.kinds.havePrograms() ? workOfPrograms(block, true)
+                         : crowded                  ? BlockWork()
+                                                    : workOfColors(block);
         work.crowded = crowded;
+        BlockVertex& vertex = put(block, work);
         if (crowded)
-            putScanned(blocks_, vertex, block.corner, raster_.box());
+            putScanned(blocks_, vertex, block.corner, raster_);
         else if (work.hasTwoColors)
             vertex.more = *twoColors(block);
-        group(work).push_back(vertex);
     }
 
-    void addOfOneProgram(const Block& block, const MetTile& some) {
-        touch(block);
-        const BlockVertex vertex = vertexOf(block, some);
-        BlockVertex onePaint = vertex;
+    void addOfOneProgram(const Block& block) {
         BlockWork work = workOfPrograms(block, false);
+        std::array<std::uint32_t, 4> words{};
         bool isPlain = work.kind == BlockWork::Kind::Plain;
-        for (std::size_t i = 0; i < 4; ++i) {
-            // The paint may have one colour in one tile and change in the next.
-            const asset::Texel& cell = cellOf(block.tiles[i].tile != nullptr ? block.tiles[i] : some);
-            isPlain = isPlain && cell[2] == plainTag;
-            onePaint.cells[i] = cell[1];
-        }
+        for (std::size_t i = 0; isPlain && i < 4; ++i)
+            if (const MetCell met = cellIn(block, i); met.tile != nullptr) {
+                // The paint may have one colour in one tile and change in the next.
+                isPlain = cellOf(met)[2] == plainTag;
+                words[i] = cellOf(met)[1];
+            }
         if (isPlain)
             work.kind = BlockWork::Kind::OnePlain;
-        group(work).push_back(isPlain ? onePaint : vertex);
+        BlockVertex& vertex = put(block, work);
+        if (isPlain)
+            vertex.cells = words;
     }
 
-    static const MetTile* someTile(const Block& block) {
-        const auto found =
-            std::ranges::find_if(block.tiles, [](const MetTile& met) { return met.tile != nullptr; });
-        return found == block.tiles.end() ? nullptr : &*found;
+    /// In the i-th of its tiles.
+    static MetCell cellIn(const Block& block, std::size_t i) {
+        const Placed* const tile = block.tiles[i];
+        if (tile == nullptr || !block.near.has(CellKind::Mixed))
+            return {tile};  // all cells are of one paint
+        const int firstRow = int(i / 2) * cellsPerTile - block.place.firstRow;
+        for (int row = std::max(firstRow, 0); row < std::min(firstRow + cellsPerTile, BlockShape::maxRows); ++row)
+            if (const auto columns =
+                    std::uint16_t(block.place.columnsOf(std::size_t(row)) >> i % 2 * cellsPerTile);
+                columns != 0)
+                return {tile, unsigned(std::countr_zero(columns)), unsigned(row - firstRow)};
+        return {};
     }
 
-    const asset::Texel& cellOf(const MetTile& met) const {
+    static MetCell someCell(const Block& block) {
+        const ivec2 tile = block.middle / cellsPerTile, cell = block.middle % cellsPerTile;
+        if (const Placed* const met = block.tiles[std::size_t(2 * tile.y + tile.x)])
+            return {met, unsigned(cell.x), unsigned(cell.y)};
+        MetCell found;
+        for (std::size_t i = 0; found.tile == nullptr && i < 4; ++i)
+            found = cellIn(block, i);
+        return found;
+    }
+
+    const asset::Texel& cellOf(const MetCell& met) const {
         return atlas_.cellAt(*met.tile, met.column, met.row);
-    }
-
-    FlatRuns::Color colorOf(std::uint32_t paint, const PaintWords& words) const {
-        FlatRuns::Color color;
-        for (unsigned c = 0; c < 4; ++c)
-            color[c] = asset::isProgram(paints_[paint]) ? float(words[c / 2] >> c % 2 * 16 & 0xFFFF) / 65535
-                                                        : std::bit_cast<float>(paints_[paint][c]);
-        return color;
-    }
-
-    void touch(const Block& block) {
-        blocks_.drawn = blocks_.drawn.joined(pixelsOf(block.corner, raster_.box()));
-    }
-
-    static bool hasPrograms(const Block& block) {
-        return block.any(&MetTile::plain) || block.any(&MetTile::run);
     }
 
     BlockWork workOfColors(const Block& block) const {
         BlockWork work;
         work.hasTwoColors = twoColors(block).has_value();
         work.isLong = std::ranges::any_of(
-            block.tiles, [](const MetTile& met) { return met.mixed && met.tile->hasLongLists; });
+            block.tiles, [](const Placed* tile) { return tile != nullptr && tile->hasLongLists; });
         return work;
     }
 
     /// `cut`: by pieces, so that it matters whether paints are steep.
     BlockWork workOfPrograms(const Block& block, bool cut) const {
+        if (block.kinds.has(CellKind::Run))
+            return {.kind = BlockWork::Kind::Programs};
         BlockWork work{.kind = BlockWork::Kind::Plain};
-        for (const MetTile& met : block.tiles) {
-            if (met.run || (met.plain && cut && met.tile->steepness > raster_.minSteepness()))
-                return {.kind = BlockWork::Kind::Programs};
-            if (!met.plain)
+        for (const Placed* tile : block.tiles) {
+            if (tile == nullptr || !kindsOf(*tile).has(CellKind::Plain))
                 continue;
+            if (cut && tile->steepness > raster_.minSteepness())
+                return {.kind = BlockWork::Kind::Programs};
             work.points = std::max(
-                work.points, std::uint8_t(std::uint8_t(met.tile->paints) - std::uint8_t(TilePaints::Plain)));
+                work.points, std::uint8_t(std::uint8_t(tile->paints) - std::uint8_t(TilePaints::Plain)));
         }
         return work;
     }
 
-    std::optional<asset::Texel> twoColors(const Block& block) const {
+    /// If all of its tiles with pieces have the same.
+    static std::optional<asset::Texel> twoColors(const Block& block) {
         std::optional<asset::Texel> pair;
-        for (const MetTile& met : block.tiles) {
-            if (!met.mixed)
+        for (const Placed* tile : block.tiles) {
+            if (tile == nullptr || !kindsOf(*tile).has(CellKind::Mixed))
                 continue;
-            const std::optional<asset::Texel> here = atlas_.twoColors(*met.tile);
-            if (!here || (pair && *pair != *here))
+            if (!tile->twoColors || (pair && *pair != *tile->twoColors))
                 return std::nullopt;
-            pair = here;
+            pair = tile->twoColors;
         }
         return pair;
     }
 
-    BlockVertex vertexOf(const Block& block, const MetTile& some) const {
-        BlockVertex vertex = vertexAt(block.corner);
-        const dvec2 pixel = raster_.toPixel(dvec2(block.least)),
-                    picture = raster_.toPicture(dvec2(block.least));
+    BlockVertex& put(const Block& block, const BlockWork& work) {
+        drawn_.add(block.corner);
+        BlockVertex& vertex = group(work).emplace_back(vertexAt(block.corner, side_));
+        const dvec2 least = dvec2(raster_.region().min + glm::i64vec2(block.window - 1)),
+                    pixel = raster_.toPixel(least), picture = raster_.toPicture(least);
         vertex.corner[0] = float(pixel.x);
         vertex.corner[1] = float(pixel.y);
         vertex.corner[2] = float(picture.x);
         vertex.corner[3] = float(picture.y);
+        const Placed* const some = *std::ranges::find_if(block.tiles, [](const Placed* t) { return t != nullptr; });
         for (std::size_t i = 0; i < 4; ++i)
-            put(vertex, i, block.tiles[i].tile != nullptr ? *block.tiles[i].tile : *some.tile);
+            gl::put(vertex, i, block.tiles[i] != nullptr ? *block.tiles[i] : *some);
         return vertex;
     }
 
@@ -286,11 +335,14 @@ private:
 
     const TileRaster& raster_;
     const Atlas& atlas_;
-    std::span<const asset::Paint> paints_;
-    const std::vector<const Placed*>& tiles_;
+    int side_;
+    TileWindows windows_;
     BlockShape shape_;
+    glm::dmat2 pixelsToTiles_;
+    dvec2 halfInTiles_, firstLeast_;  ///< of a block; of one with its corner at 0, from the first window on
     Blocks blocks_;
     FlatRuns runs_;
+    DrawnBox drawn_;
 };
 
 }  // namespace
@@ -313,18 +365,17 @@ Blocks crowdedBlocks(const TileRaster& raster, Atlas& atlas) {
     if (blocks.drawn.empty())
         return blocks;
     const Placed& tile = atlas.prepareCrowded();
-    std::vector<BlockVertex> vertices;
-    forEachBlock(
-        blocks.drawn,
-        [&](ivec2 corner) {
-            BlockVertex vertex = vertexAt(corner);
+    const BlockGrid& grid = raster.grid();
+    BlockGroup group{{.crowded = true}, {}};
+    const ivec2 least = grid.cornerAt(blocks.drawn.min);
+    for (ivec2 corner = least; corner.y < blocks.drawn.max.y; corner.y += grid.side)
+        for (corner.x = least.x; corner.x < blocks.drawn.max.x; corner.x += grid.side) {
+            BlockVertex& vertex = group.vertices.emplace_back(vertexAt(corner, grid.side));
             for (std::size_t i = 0; i < 4; ++i)
                 put(vertex, i, tile);
-            putScanned(blocks, vertex, corner, raster.box());
-            vertices.push_back(vertex);
-        },
-        [] {});
-    blocks.groups.push_back({{.crowded = true}, std::move(vertices)});
+            putScanned(blocks, vertex, corner, raster);
+        }
+    blocks.groups.push_back(std::move(group));
     return blocks;
 }
 

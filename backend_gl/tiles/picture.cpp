@@ -61,18 +61,13 @@ void setMatrix(GLint uniform, const glm::dmat2& m) {
     glUniform4f(uniform, float(m[0].x), float(m[0].y), float(m[1].x), float(m[1].y));
 }
 
-/// What the blocks of a view fill: a point in whose middle the view has ended would be clipped.
-glm::ivec2 wholeBlocks(const asset::View& view) {
-    return (glm::ivec2(view.width, view.height) + blockSide - 1) / blockSide * blockSide;
-}
-
 void use(const Program& program, const Sections& s, std::uint32_t firstPaint, const TileRaster& raster) {
     const asset::View& view = raster.view();
     const double side = raster.side();
     const glm::dmat2 toPixels(view.toPixels[0] * side, view.toPixels[1] * side);
     program.use();
-    const glm::ivec2 size = wholeBlocks(view);
-    glUniform2f(program.uniform("targetSize"), float(size.x), float(size.y));
+    glUniform2f(program.uniform("targetSize"), float(view.width), float(view.height));
+    glUniform1f(program.uniform("blockSide"), float(raster.grid().side));
     glUniform4ui(program.uniform("sections"), s.leaves, s.pieces, s.paints + firstPaint, s.data);
     glUniform1ui(program.uniform("imageSection"), s.images);
     glUniform1ui(program.uniform("rampSums"), s.rampSums);
@@ -134,14 +129,12 @@ PixelBox drawMap(Programs& programs, PictureBuffers& buffers, const UploadedAsse
     const Blocks blocks = scanned ? crowdedBlocks(raster, atlas) : preparedBlocks(asset, atlas, raster);
     if (!blocks.crowded.empty()) {
         const bool light = finish.has(Finish::LinearLight);
-        atlas.scanned().scan(view, blocks.crowded, box, light ? asset::Sums::Light : asset::Sums::Encoded);
+        atlas.scanned().scan(view, blocks.crowded, box, raster.grid(), light ? asset::Sums::Light : asset::Sums::Encoded);
         bindTexture(Unit::Layer, atlas.scanned().texture());
     }
     bindTexture(Unit::Texels, asset.records.texture());
     bindTexture(Unit::Images, asset.images);
     bindTexture(Unit::Tiles, atlas.texture());
-    const glm::ivec2 size = wholeBlocks(view);
-    glViewport(0, 0, size.x, size.y);
     if (!blocks.flat.empty()) {
         use(programs.flat(finish), asset.sections, atlas.firstPaint(), raster);
         draw(GL_TRIANGLES, buffers.flatArray, buffers.flat, blocks.flat);
@@ -153,7 +146,6 @@ PixelBox drawMap(Programs& programs, PictureBuffers& buffers, const UploadedAsse
         glUniform1i(program.uniform("markOverruns"), markOverruns);
         draw(GL_POINTS, buffers.blockArray, buffers.block, group.vertices);
     }
-    glViewport(0, 0, view.width, view.height);
     return blocks.drawn;
 }
 

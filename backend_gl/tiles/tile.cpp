@@ -337,8 +337,8 @@ Tile tileOfOnePaint(const TileSource& source, const CellPlaces& places, std::uin
     const ProgramsNear programs = programsNear(source, places, {&paint, 1});
     const TileWords words = putPaints(source, places, programs, tile);
     const PaintKind kind = words.kindOf(paint);
-    tile.plain = kind == PaintKind::Plain ? allCells : CellSet{};
-    tile.run = kind == PaintKind::Program ? allCells : CellSet{};
+    if (kind != PaintKind::Solid)
+        tile.cells[kind == PaintKind::Plain ? CellKind::Plain : CellKind::Run] = allCells;
     const std::vector<PlanarPiece> none;
     const HandedOver isHandedOver(source, places, programs);
     const Reference here{dvec2(0.5), 0, paint};
@@ -350,9 +350,9 @@ Tile tileOfOnePaint(const TileSource& source, const CellPlaces& places, std::uin
                 const bool crowded = isHandedOver(places.pixels(tile.grid, column, row), paint, none, {});
                 cells.push_back(crowded ? writer.writeCrowded(here) : writer.write(here, {}));
                 if (crowded)
-                    put(tile.crowded, tile.grid, column, row);
+                    put(tile.cells[CellKind::Crowded], tile.grid, column, row);
             }
-    if (tile.crowded == CellSet{}) {
+    if (tile.cells[CellKind::Crowded] == CellSet{}) {
         tile.grid = oneCell;
         cells = {writer.write(here, {})};
     }
@@ -405,7 +405,7 @@ Tile crowdedTile(std::span<const asset::Paint> paints) {
     const std::vector<PlanarPiece> none;
     const CellWriter writer(words, {}, none, tile.texels);
     tile.grid = oneCell;
-    tile.crowded = allCells;
+    tile.cells[CellKind::Crowded] = allCells;
     tile.texels = {writer.writeCrowded({dvec2(0.5), 0, 0})};
     return tile;
 }
@@ -435,7 +435,7 @@ Tile buildTile(const TileSource& source, const TilePlace& place, double margin,
     CellWriter writer(words, source.changes, pieces, tile.texels);
     const auto markPaint = [&](std::uint32_t paint, int column, int row) {
         if (const PaintKind kind = words.kindOf(paint); kind != PaintKind::Solid)
-            put(kind == PaintKind::Plain ? tile.plain : tile.run, tile.grid, column, row);
+            put(tile.cells[kind == PaintKind::Plain ? CellKind::Plain : CellKind::Run], tile.grid, column, row);
     };
     Walk walk(pieces, source.hasLessDetail());
     Reference rowStart, last;
@@ -455,9 +455,9 @@ Tile buildTile(const TileSource& source, const TilePlace& place, double margin,
                 isHandedOver(places.pixels(tile.grid, column, row), here.paint, pieces, lists.of(i));
             cells.push_back(crowded ? writer.writeCrowded(here) : writer.write(here, lists.of(i)));
             if (crowded)
-                put(tile.crowded, tile.grid, column, row);
+                put(tile.cells[CellKind::Crowded], tile.grid, column, row);
             if (!lists.of(i).empty())
-                put(tile.mixed, tile.grid, column, row);
+                put(tile.cells[CellKind::Mixed], tile.grid, column, row);
             if (programs.any) {
                 markPaint(here.paint, column, row);
                 for (const std::uint32_t piece : lists.of(i)) {

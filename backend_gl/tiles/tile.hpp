@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstdint>
+#include <iterator>
 #include <span>
 #include <vector>
 
@@ -48,9 +49,16 @@ inline constexpr CellSet allCells = [] {
     cells.fill(0xFFFF);
     return cells;
 }();
-/// Pictures are drawn in blocks, upright squares of so many pixels a side: in a tile that is no more than 16
-/// / 2.83 cells from a block's middle (tileLevelFor() in atlas.hpp), so that it meets four tiles at most.
-inline constexpr int blockSide = 16;
+/// What is known of a tile's cells: which have pieces; in which some paint is plain, but no colour; in which one
+/// has to be run; which are crowded.
+enum class CellKind : std::uint8_t { Mixed, Plain, Run, Crowded };
+inline constexpr CellKind cellKinds[] = {CellKind::Mixed, CellKind::Plain, CellKind::Run, CellKind::Crowded};
+struct CellSets {
+    std::array<CellSet, std::size(cellKinds)> sets{};
+
+    CellSet& operator[](CellKind kind) { return sets[std::size_t(kind)]; }
+    const CellSet& operator[](CellKind kind) const { return sets[std::size_t(kind)]; }
+};
 /// In the word with a tile's first cell.
 inline constexpr unsigned gridShift = 28;
 /// The cells of a tile, row by row.
@@ -118,8 +126,7 @@ struct Tile {
     /// have to be run. In views in which that is steep all are run.
     float steepness = 0;
     bool hasLongLists = false;  ///< so that shaders had better meet two pieces at a time
-    /// Cells with pieces; where some paint is plain, but no colour; where one has to be run; crowded ones.
-    CellSet mixed{}, plain{}, run{}, crowded{};
+    CellSets cells;
     /// Whether each reference point has one paint. Where levels of detail have moved boundaries over each
     /// other some may have none, and a cell beside them would be wrong.
     bool isConsistent = true;

@@ -18,7 +18,8 @@ TileRaster::TileRaster(const asset::Map& map, const asset::View& view, const Pix
       view_(&view),
       box_(box),
       inverse_(glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]))),
-      minSteepness_(asset::minSteepness(inverse_)) {
+      minSteepness_(asset::minSteepness(inverse_)),
+      grid_(BlockGrid::of({view.width, view.height}, blockSideFor(pixelsToTiles()))) {
     dvec2 minimum(HUGE_VAL), maximum(-HUGE_VAL);
     for (const dvec2 pixel :
          {dvec2(box.min), dvec2(box.max.x, box.min.y), dvec2(box.min.x, box.max.y), dvec2(box.max)}) {

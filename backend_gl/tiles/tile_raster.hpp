@@ -10,6 +10,7 @@
 #include <vtm/raster/view.hpp>
 #include "backend_gl/core/placement.hpp"
 #include "backend_gl/tiles/atlas.hpp"
+#include "backend_gl/tiles/block_grid.hpp"
 
 namespace vtm::gl {
 
@@ -32,6 +33,8 @@ public:
     float minSteepness() const { return minSteepness_; }
     /// The tiles that pixels of the box lie in.
     const Atlas::Region& region() const { return region_; }
+    /// How the view is drawn.
+    const BlockGrid& grid() const { return grid_; }
 
 private:
     double side_;
@@ -41,6 +44,7 @@ private:
     glm::dmat2 inverse_;
     float minSteepness_;
     Atlas::Region region_;
+    BlockGrid grid_;
 };
 
 }  // namespace vtm::gl

@@ -2,7 +2,6 @@
 // do along the edges of turned squares.
 // Exports, flat: what fragments need to know of the block's tiles, and of the view: some drivers read a uniform once for
 // each pixel of a vector, wherever it is used, and what is flat once for all.
-// Requires: constant blockSide.
 
 layout(location = 0) in vec2 middle;  // pixels
 // Of the four tiles that a block may meet, the one with the least coordinates: its least corner in pixels, and in picture
@@ -17,6 +16,7 @@ layout(location = 3) in uvec4 cellsOf;
 layout(location = 4) in uvec4 more;
 
 uniform vec2 targetSize;
+uniform float blockSide;  // pixels
 uniform float sideOfTile;  // picture units
 uniform vec4 toTile;  // distances from pixels to tiles, by columns
 // Tile to pixel distances, by columns, mirrored if need be so that areas keep their sign; the box does not care.
