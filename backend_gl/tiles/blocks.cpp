@@ -58,11 +58,12 @@ Kinds kindsOf(const Placed& tile) { return Kinds(tile.kinds); }
 
 struct Block {
     ivec2 corner;
-    ivec2 window;
-    BlockShape::Place place;
-    std::array<const Placed*, 4> tiles;  ///< null: not met, or beyond the region
-    ivec2 middle;                        ///< in which cell of the window it lies
-    Kinds near, kinds;                   ///< of the tiles' cells, of its own
+    ivec2 window{};
+    BlockShape::Place place{};
+    ivec2 middle{};                        ///< in which cell of the window it lies
+    std::array<const Placed*, 4> tiles{};  ///< null: not met, or beyond the region
+    const Placed* some = nullptr;          ///< of those
+    Kinds near{}, kinds{};                 ///< of the tiles' cells, of its own
 };
 
 /// Of a block's cells in one tile.
@@ -161,8 +162,7 @@ public:
         const ivec2 first = raster_.grid().cornerAt(box.min);
         for (ivec2 corner = first; corner.y < box.max.y; corner.y += side_) {
             for (corner.x = first.x; corner.x < box.max.x; corner.x += side_)
-                if (const std::optional<Block> block = blockAt(corner))
-                    add(*block);
+                add(blockAt(corner));
             runs_.end();
             drawn_.endRow();
         }
@@ -170,37 +170,36 @@ public:
     }
 
 private:
-    /// Nothing where there are no tiles.
-    std::optional<Block> blockAt(ivec2 corner) {
+    Block blockAt(ivec2 corner) {
+        Block block{.corner = corner};
         const dvec2 least = firstLeast_ + pixelsToTiles_ * dvec2(corner);
         const ivec2 size = windows_.size();
         if (!(least.x >= 0 && least.y >= 0 && least.x < size.x && least.y < size.y))
-            return std::nullopt;
-        const ivec2 window(least);
-        const dvec2 inWindow = least - dvec2(window);
-        std::array<const Placed*, 4> tiles = windows_.tilesAt(window);
-        const dvec2 end = inWindow + 2.0 * halfInTiles_;
+            return block;
+        block.window = ivec2(least);
+        const dvec2 inWindow = least - dvec2(block.window), end = inWindow + 2.0 * halfInTiles_,
+                    middle = (inWindow + halfInTiles_) * double(cellsPerTile);
+        block.middle = ivec2(middle);
+        block.tiles = windows_.tilesAt(block.window);
         if (end.x < 1)
-            tiles[1] = tiles[3] = nullptr;
+            block.tiles[1] = block.tiles[3] = nullptr;
         if (end.y < 1)
-            tiles[2] = tiles[3] = nullptr;
-        const dvec2 middle = (inWindow + halfInTiles_) * double(cellsPerTile);
-        Block block{corner, window, shape_.placeOf(middle), tiles, ivec2(middle), {}, {}};
-        bool any = false;
-        for (const Placed* tile : tiles)
+            block.tiles[2] = block.tiles[3] = nullptr;
+        for (const Placed* tile : block.tiles)
             if (tile != nullptr) {
-                any = true;
+                block.some = tile;
                 block.near.add(kindsOf(*tile));
             }
-        if (!any)
-            return std::nullopt;
+        block.place = shape_.placeOf(middle);
         for (const CellKind kind : cellKinds)
-            if (block.near.has(kind) && windows_.meets(window, kind, block.place))
+            if (block.near.has(kind) && windows_.meets(block.window, kind, block.place))
                 block.kinds.add(kind);
         return block;
     }
 
     void add(const Block& block) {
+        if (block.some == nullptr)
+            return;
         if (block.kinds.has(CellKind::Crowded) || block.kinds.has(CellKind::Mixed))
             return addMixed(block);
         const MetCell some = someCell(block);
@@ -321,9 +320,8 @@ private:
         vertex.corner[1] = float(pixel.y);
         vertex.corner[2] = float(picture.x);
         vertex.corner[3] = float(picture.y);
-        const Placed* const some = *std::ranges::find_if(block.tiles, [](const Placed* t) { return t != nullptr; });
         for (std::size_t i = 0; i < 4; ++i)
-            gl::put(vertex, i, block.tiles[i] != nullptr ? *block.tiles[i] : *some);
+            gl::put(vertex, i, block.tiles[i] != nullptr ? *block.tiles[i] : *block.some);
         return vertex;
     }
 
