@@ -50,8 +50,8 @@ void requireContext() {
     std::array<GLfloat, 2> pointSizes{};
     glGetFloatv(GL_ALIASED_POINT_SIZE_RANGE, pointSizes.data());
     if (pointSizes[1] < float(maxBlockSide))
-        throw GlError(
-            fmt::format("the driver's largest point has {} pixels: {} are needed", pointSizes[1], maxBlockSide));
+        throw GlError(fmt::format("the driver's largest point has {} pixels: {} are needed", pointSizes[1],
+                                  maxBlockSide));
 }
 
 std::function<unsigned()> driversResetStatus() {

@@ -1,5 +1,8 @@
 // Pictures are drawn in upright blocks of pixels, wherever they and their tiles lie.
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <random>
 #include <set>
@@ -11,6 +14,7 @@
 #include <vtm/raster/evaluate.hpp>
 #include "backend_gl/tests/output_support.hpp"
 #include "backend_gl/tiles/atlas.hpp"
+#include "backend_gl/tiles/block_grid.hpp"
 #include "backend_gl/tiles/block_shape.hpp"
 
 namespace vtm::gl {
@@ -33,21 +37,23 @@ TEST(BlockShape, HoldsTheCellsOfAllPixelCentres) {
     std::size_t found = 0, needed = 0;
     for (int round = 0; round < 2000; ++round) {
         const glm::dmat2 toTile = anyPixels(random);
-        const BlockShape shape(toTile);
+        const int blockSide = blockSideFor(toTile);
+        BlockShape shape(toTile, blockSide);
         std::uniform_real_distribution<double> offset(0, cellsPerTile);
         const dvec2 middle = shape.half() + dvec2(offset(random), offset(random));
+        const BlockShape::Place place = shape.placeOf(middle);
         std::set<std::pair<int, int>> cells, centres;
-        shape.forEachRow(middle, [&](int row, std::uint32_t columns) {
+        for (int i = 0; i < BlockShape::maxRows; ++i)
             for (int column = 0; column < cellsPerWindow; ++column)
-                if ((columns >> column & 1) != 0)
-                    cells.emplace(column, row);
-        });
+                if ((place.columnsOf(std::size_t(i)) >> column & 1) != 0)
+                    cells.emplace(column, place.firstRow + i);
         for (int y = 0; y < blockSide; ++y)
             for (int x = 0; x < blockSide; ++x) {
                 const dvec2 at =
                     middle + double(cellsPerTile) * (toTile * (dvec2(x, y) + 0.5 - 0.5 * blockSide));
                 const std::pair<int, int> cell(int(std::floor(at.x)), int(std::floor(at.y)));
                 ASSERT_TRUE(cells.contains(cell)) << round;
+                ASSERT_LT(std::max(cell.first, cell.second), cellsPerWindow) << round;
                 centres.insert(cell);
             }
         found += cells.size();
@@ -57,12 +63,66 @@ TEST(BlockShape, HoldsTheCellsOfAllPixelCentres) {
     EXPECT_LT(double(found), 1.35 * double(needed));
 }
 
+/// Rows of a window's cells, each a bit, are met exactly where the block's own cells are.
+TEST(BlockShape, MeetsEachOfItsCells) {
+    std::mt19937 random(2);
+    for (int round = 0; round < 200; ++round) {
+        const glm::dmat2 toTile = anyPixels(random);
+        BlockShape shape(toTile, blockSideFor(toTile));
+        std::uniform_real_distribution<double> offset(0, cellsPerTile);
+        const BlockShape::Place place = shape.placeOf(shape.half() + dvec2(offset(random), offset(random)));
+        for (std::size_t row = 0; row < BlockShape::maxRows; ++row)
+            for (unsigned column = 0; column < cellsPerWindow; ++column) {
+                std::array<std::uint32_t, BlockShape::maxRows> cells{};
+                cells[row] = 1u << column;
+                ASSERT_EQ(place.meets(cells.data()), (place.columnsOf(row) >> column & 1) != 0);
+            }
+    }
+}
+
+/// The largest of which the centres never meet three tiles.
+TEST(Blocks, AreAsLargeAsTilesAllow) {
+    const auto upright = [](double tile) { return glm::dmat2(1 / tile, 0, 0, 1 / tile); };
+    const glm::dmat2 turned(std::sqrt(0.5), std::sqrt(0.5), -std::sqrt(0.5), std::sqrt(0.5));
+    EXPECT_EQ(blockSideFor(upright(64)), 32);
+    EXPECT_EQ(blockSideFor(upright(32)), 32);
+    EXPECT_EQ(blockSideFor(turned * upright(45)), 32);
+    EXPECT_EQ(blockSideFor(turned * upright(43)), 24);
+    EXPECT_EQ(blockSideFor(turned * upright(32)), 16);
+    std::mt19937 random(3);
+    for (int round = 0; round < 1000; ++round) {
+        const glm::dmat2 toTile = anyPixels(random);
+        const dvec2 pixel = glm::abs(toTile[0]) + glm::abs(toTile[1]);
+        const int blockSide = blockSideFor(toTile);
+        EXPECT_LE((blockSide - 1) * std::max(pixel.x, pixel.y), 1);
+        EXPECT_TRUE(blockSide == maxBlockSide || (blockSide + 7) * std::max(pixel.x, pixel.y) > 0.99);
+    }
+}
+
+/// They hold all of a view, and GL draws no others.
+TEST(Blocks, HaveTheirMiddlesInTheView) {
+    for (const int blockSide : {16, 24, 32})
+        for (int width = 1; width < 200; ++width) {
+            const BlockGrid grid = BlockGrid::of({width, 77}, blockSide);
+            const int first = grid.cornerAt({0, 0}).x, last = grid.cornerAt({width - 1, 0}).x;
+            EXPECT_LE(first, 0);
+            EXPECT_GE(first + blockSide / 2, 0);
+            EXPECT_GE(last + blockSide, width);
+            EXPECT_LE(last + blockSide / 2, width);
+            EXPECT_EQ((last - first) % blockSide, 0);
+            EXPECT_EQ(grid.columnsOf({{0, 0}, {width, 77}}), (last - first) / blockSide + 1);
+        }
+}
+
 TEST(ScannedBlocks, StandInRowsAsLongAsTheBoxes) {
-    const PixelBox box{{20, 3}, {20 + 5 * blockSide, 40}};  // touches six blocks
-    EXPECT_EQ(scannedPlace(0, box), glm::ivec2(0, 0));
-    EXPECT_EQ(scannedPlace(5, box), blockSide * glm::ivec2(5, 0));
-    EXPECT_EQ(scannedPlace(6, box), blockSide * glm::ivec2(0, 1));
-    EXPECT_EQ(scannedPlace(15, box), blockSide * glm::ivec2(3, 2));
+    for (const int blockSide : {16, 24, 32}) {
+        const BlockGrid grid{blockSide, {0, 0}};
+        const PixelBox box{{blockSide + 4, 3}, {blockSide + 4 + 5 * blockSide, 40}};  // touches six blocks
+        EXPECT_EQ(scannedPlace(0, box, grid), glm::ivec2(0, 0));
+        EXPECT_EQ(scannedPlace(5, box, grid), blockSide * glm::ivec2(5, 0));
+        EXPECT_EQ(scannedPlace(6, box, grid), blockSide * glm::ivec2(0, 1));
+        EXPECT_EQ(scannedPlace(15, box, grid), blockSide * glm::ivec2(3, 2));
+    }
 }
 
 /// Blocks that the picture's borders cut, also in their middles, are drawn, each pixel once.

@@ -102,8 +102,8 @@ public:
         CellGrid grid;
         std::uint64_t used = 0;  ///< by which picture, the last time
         asset::Texel cell{};     ///< the first one
-        /// Where paints are solid, the colours beside pieces of the first pair, if no other pair but its reverse
-        /// is.
+        /// Where paints are solid, the colours beside pieces of the first pair, if no other pair but its
+        /// reverse is.
         std::optional<asset::Texel> twoColors = std::nullopt;
         CellSets cells;
     };

@@ -12,25 +12,27 @@
 
 namespace vtm::gl {
 
-/// Pixels a side of the smallest and the largest blocks. Of sides between, steps: drivers shade groups of 2 x 2
-/// pixels and more, which edges of blocks must not cut.
+/// Pixels a side of the smallest and the largest blocks. Of sides between, steps: drivers shade groups of 2 x
+/// 2 pixels and more, which edges of blocks must not cut.
 inline constexpr int minBlockSide = 16, maxBlockSide = 32, blockSideStep = 8;
 
-/// The largest blocks whose pixels' centres lie in two tiles along each axis wherever they are, the smallest if
-/// there are none. Those always do: from one centre to another it is less than 15 diagonals of a pixel, and a tile
-/// is 16 / 2 of 2.83 of them wide at least (tileLevelFor() in atlas.hpp).
+/// The largest blocks whose pixels' centres lie in two tiles along each axis wherever they are, the smallest
+/// if there are none. Those always do: from one centre to another it is less than 15 diagonals of a pixel,
+/// and a tile is 16 / 2 of 2.83 of them wide at least (tileLevelFor() in atlas.hpp).
 int blockSideFor(const glm::dmat2& pixelsToTiles);
 
 struct BlockGrid {
     int side = minBlockSide;
     glm::ivec2 origin{0};  ///< a corner of the first block
 
-    /// Of a view: GL draws points whose middles lie in the viewport, so those of the first and the last blocks have
-    /// to, whatever of them lies outside.
-    static BlockGrid of(glm::ivec2 view, int side) {
-        const glm::ivec2 rest = view % side;
-        const auto origin = [&](int r) { return r != 0 && 2 * r < side ? -side / 2 : 0; };
-        return {side, {origin(rest.x), origin(rest.y)}};
+    /// Of a view: GL draws points whose middles lie in the viewport, so those of the first and the last
+    /// blocks have to, whatever of them lies outside.
+    static BlockGrid of(glm::ivec2 view, int blockSide) {
+        const auto first = [&](int size) {
+            const int rest = size % blockSide;
+            return rest != 0 && 2 * rest < blockSide ? -blockSide / 2 : 0;
+        };
+        return {blockSide, {first(view.x), first(view.y)}};
     }
 
     /// The first corner of the block that a pixel of the view lies in.

@@ -38,8 +38,8 @@ public:
     /// Where a block lies in a window.
     struct Place {
         const std::array<std::uint32_t, maxRows>* columns;
-        int firstRow;   ///< of maxRows, at least -1
-        int moved;      ///< columns to the right, at least -1
+        int firstRow;  ///< of maxRows, at least -1
+        int moved;     ///< columns to the right, at least -1
 
         /// Of the i-th row: those of the window that the block meets, in which a column is a bit.
         std::uint32_t columnsOf(std::size_t i) const {

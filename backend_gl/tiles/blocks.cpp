@@ -59,7 +59,7 @@ Kinds kindsOf(const Placed& tile) { return Kinds(tile.kinds); }
 struct Block {
     ivec2 corner;
     ivec2 window{};
-    BlockShape::Place place{};
+    BlockShape::Place place{};             ///< if there are kinds near
     ivec2 middle{};                        ///< in which cell of the window it lies
     std::array<const Placed*, 4> tiles{};  ///< null: not met, or beyond the region
     const Placed* some = nullptr;          ///< of those
@@ -153,7 +153,8 @@ public:
           shape_(raster.pixelsToTiles(), side_),
           pixelsToTiles_(raster.pixelsToTiles()),
           halfInTiles_(shape_.half() / double(cellsPerTile)),
-          firstLeast_(raster.toTile(dvec2(0.5 * side_)) - halfInTiles_ - dvec2(raster.region().min - std::int64_t(1))),
+          firstLeast_(raster.toTile(dvec2(0.5 * side_)) - halfInTiles_ -
+                      dvec2(raster.region().min - std::int64_t(1))),
           runs_(blocks_.flat, paints, side_),
           drawn_(blocks_.drawn, raster) {}
 
@@ -190,7 +191,8 @@ private:
                 block.some = tile;
                 block.near.add(kindsOf(*tile));
             }
-        block.place = shape_.placeOf(middle);
+        if (block.near.any())
+            block.place = shape_.placeOf(middle);
         for (const CellKind kind : cellKinds)
             if (block.near.has(kind) && windows_.meets(block.window, kind, block.place))
                 block.kinds.add(kind);
@@ -252,7 +254,8 @@ private:
         if (tile == nullptr || !block.near.has(CellKind::Mixed))
             return {tile};  // all cells are of one paint
         const int firstRow = int(i / 2) * cellsPerTile - block.place.firstRow;
-        for (int row = std::max(firstRow, 0); row < std::min(firstRow + cellsPerTile, BlockShape::maxRows); ++row)
+        for (int row = std::max(firstRow, 0); row < std::min(firstRow + cellsPerTile, BlockShape::maxRows);
+             ++row)
             if (const auto columns =
                     std::uint16_t(block.place.columnsOf(std::size_t(row)) >> i % 2 * cellsPerTile);
                 columns != 0)

@@ -129,7 +129,8 @@ PixelBox drawMap(Programs& programs, PictureBuffers& buffers, const UploadedAsse
     const Blocks blocks = scanned ? crowdedBlocks(raster, atlas) : preparedBlocks(asset, atlas, raster);
     if (!blocks.crowded.empty()) {
         const bool light = finish.has(Finish::LinearLight);
-        atlas.scanned().scan(view, blocks.crowded, box, raster.grid(), light ? asset::Sums::Light : asset::Sums::Encoded);
+        atlas.scanned().scan(view, blocks.crowded, box, raster.grid(),
+                             light ? asset::Sums::Light : asset::Sums::Encoded);
         bindTexture(Unit::Layer, atlas.scanned().texture());
     }
     bindTexture(Unit::Texels, asset.records.texture());

@@ -435,7 +435,8 @@ Tile buildTile(const TileSource& source, const TilePlace& place, double margin,
     CellWriter writer(words, source.changes, pieces, tile.texels);
     const auto markPaint = [&](std::uint32_t paint, int column, int row) {
         if (const PaintKind kind = words.kindOf(paint); kind != PaintKind::Solid)
-            put(tile.cells[kind == PaintKind::Plain ? CellKind::Plain : CellKind::Run], tile.grid, column, row);
+            put(tile.cells[kind == PaintKind::Plain ? CellKind::Plain : CellKind::Run], tile.grid, column,
+                row);
     };
     Walk walk(pieces, source.hasLessDetail());
     Reference rowStart, last;

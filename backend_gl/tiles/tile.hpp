@@ -49,8 +49,8 @@ inline constexpr CellSet allCells = [] {
     cells.fill(0xFFFF);
     return cells;
 }();
-/// What is known of a tile's cells: which have pieces; in which some paint is plain, but no colour; in which one
-/// has to be run; which are crowded.
+/// What is known of a tile's cells: which have pieces; in which some paint is plain, but no colour; in which
+/// one has to be run; which are crowded.
 enum class CellKind : std::uint8_t { Mixed, Plain, Run, Crowded };
 inline constexpr CellKind cellKinds[] = {CellKind::Mixed, CellKind::Plain, CellKind::Run, CellKind::Crowded};
 struct CellSets {

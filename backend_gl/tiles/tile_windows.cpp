@@ -20,8 +20,9 @@ TileWindows::TileWindows(const Atlas::Region& region, const std::vector<const Pl
 void TileWindows::putCells(const CellSet& cells, ivec2 tile, std::vector<std::uint32_t>& rows) const {
     if (rows.empty())
         rows.resize(rowOf({size_.x, 0}) + 1 + BlockShape::maxRows);
-    std::uint32_t *const onTheLeft = rows.data() + rowOf(tile) + 1,
-                  *const onTheRight = rows.data() + rowOf(tile - ivec2(1, 0)) + 1;
+    std::uint32_t *const onTheLeft = rows.data() + rowOf(tile) + 1, *const onTheRight =
+                                                                        rows.data() +
+                                                                        rowOf(tile - ivec2(1, 0)) + 1;
     for (std::size_t row = 0; row < cells.size(); ++row) {
         onTheLeft[row] |= cells[row];
         onTheRight[row] |= std::uint32_t(cells[row]) << cellsPerTile;

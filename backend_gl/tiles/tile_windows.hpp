@@ -29,7 +29,8 @@ public:
     }
     /// Whether a block meets cells of a kind. Only if there are some in the window.
     bool meets(glm::ivec2 window, CellKind kind, const BlockShape::Place& place) const {
-        return place.meets(cells_[std::size_t(kind)].data() + rowOf(window) + std::size_t(place.firstRow + 1));
+        return place.meets(cells_[std::size_t(kind)].data() + rowOf(window) +
+                           std::size_t(place.firstRow + 1));
     }
 
 private:
@@ -40,8 +41,8 @@ private:
 
     glm::ivec2 size_;
     std::vector<const Placed*> tiles_;  ///< with a border of null
-    /// By kind, if there are any: columns of windows, in each the rows of all its cells, so that those of a window
-    /// follow each other. A row stands before all of them, and as many as a block may have behind.
+    /// By kind, if there are any: columns of windows, in each the rows of all its cells, so that those of a
+    /// window follow each other. A row stands before all of them, and as many as a block may have behind.
     std::array<std::vector<std::uint32_t>, std::size(cellKinds)> cells_;
 };
 
