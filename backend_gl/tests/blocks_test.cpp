@@ -6,21 +6,38 @@
 #include <memory>
 #include <random>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include <glm/glm.hpp>
 
 #include <vtm/compiler/compile.hpp>
 #include <vtm/raster/evaluate.hpp>
+#include <vtm/svg/load.hpp>
 #include "backend_gl/tests/output_support.hpp"
 #include "backend_gl/tiles/atlas.hpp"
 #include "backend_gl/tiles/block_grid.hpp"
 #include "backend_gl/tiles/block_shape.hpp"
+#include "backend_gl/tiles/picture.hpp"
+#include "backend_gl/upload/upload.hpp"
 
 namespace vtm::gl {
 namespace {
 
 using glm::dvec2;
+
+/// A picture that is filled up to its borders.
+Asset wholeSquare() {
+    scene::Scene scene;
+    scene.width = scene.height = 64;
+    scene::Item item;
+    item.path = std::make_shared<scene::Path>(scene::Path{scene::MoveTo{{0, 0}}, scene::LineTo{{64, 0}},
+                                                          scene::LineTo{{64, 64}}, scene::LineTo{{0, 64}},
+                                                          scene::Close{}});
+    item.paint = scene::Color{1, 0, 0, 1};
+    scene.root.children.push_back({item});
+    return compiler::compile(scene).asset;
+}
 
 /// Blocks of any size that tiles allow, turned and slanted.
 glm::dmat2 anyPixels(std::mt19937& random) {
@@ -174,6 +191,76 @@ Asset confetti(int triangles, int colors) {
         scene.root.children.push_back({item});
     }
     return compiler::compile(scene).asset;
+}
+
+/// Gradients that are plain, steep ones and such with jumps beside each other.
+Asset gradients() {
+    constexpr std::string_view text = R"svg(<svg xmlns="http://www.w3.org/2000/svg" width="64" height="64">
+        <linearGradient id="a"><stop stop-color="red"/><stop offset="1" stop-color="blue"/></linearGradient>
+        <radialGradient id="b"><stop stop-color="white"/><stop offset=".5" stop-color="green"/>
+            <stop offset=".5" stop-color="black"/><stop offset="1" stop-color="white"/></radialGradient>
+        <linearGradient id="c" spreadMethod="reflect" x2=".1" y2=".1"><stop stop-color="yellow"/>
+            <stop offset="1" stop-color="black"/></linearGradient>
+        <rect width="64" height="40" fill="url(#a)"/><circle cx="40" cy="40" r="20" fill="url(#b)"/>
+        <path d="M2 30l20 3-7 30z" fill="url(#c)"/><path d="M50 5l3 40 2-40 3 40 2-40z" fill="gold"/></svg>)svg";
+    return compiler::compile(
+               svg::load({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}).scene)
+        .asset;
+}
+
+/// In blocks of up to so many pixels a side.
+image::Raster drawnInBlocks(int largest, UploadedAsset& asset, Programs& programs, const View& view) {
+    const UserFramebuffer target(GL_RGBA32F, view.width, view.height);
+    glViewport(0, 0, view.width, view.height);
+    glDisable(GL_BLEND);
+    PictureBuffers buffers;
+    buffers.largestBlock = largest;
+    drawPicture(programs, buffers, asset, view, {{0, 0}, {view.width, view.height}}, {}, true);
+    return target.floats();
+}
+
+constexpr int blockSides[] = {minBlockSide, minBlockSide + blockSideStep, maxBlockSide};
+
+/// With cells that are drawn, that are scanned, and some of either.
+TEST_F(Gl, BlocksOfAnySizeShowThePicture) {
+    Programs programs;
+    for (const Asset& asset : {disc(), confetti(300, 7), gradients()})
+        for (const std::uint32_t maxTurns : {0u, 2u, turnsPerPixel}) {
+            UploadedAsset uploaded(asset, 0, maxTurns);
+            for (const auto& [width, height] : {std::pair{3, 17}, {100, 97}, {131, 61}})
+                for (const double angle : {0.0, 0.3, 0.8})
+                    for (const double pixels : {0.3, 1.0, 1.4, 1.9}) {
+                        const View view = turnedView(width, height, {30, 32}, pixels, angle);
+                        const image::Raster expected = asset::evaluate(asset, view);
+                        for (const int largest : blockSides)
+                            EXPECT_LE(
+                                worst(drawnInBlocks(largest, uploaded, programs, view), expected, identity),
+                                2 * byteStep)
+                                << width << ' ' << angle << ' ' << pixels << ' ' << largest << ' '
+                                << maxTurns;
+                    }
+        }
+}
+
+/// A block may be as wide as a tile, whose border stands in the tile beside the picture, too: pixels of the
+/// next one have none.
+TEST_F(Gl, NothingIsDrawnBesideSmallPictures) {
+    Programs programs;
+    UploadedAsset uploaded(wholeSquare(), 0);
+    for (double pixels = 0.2; pixels < 0.9; pixels *= 1.07)
+        for (const double offset : {0.0, 0.25, 0.5, 7.9}) {
+            const View view{250, 250, {pixels, 0, 0, pixels, 100 + offset, 120 + offset}};
+            for (const int largest : blockSides) {
+                const image::Raster drawn = drawnInBlocks(largest, uploaded, programs, view);
+                for (int y = 0; y < view.height; ++y)
+                    for (int x = 0; x < view.width; ++x) {
+                        const bool isBeside =
+                            x < 99 || y < 119 || x > 110 + 64 * pixels || y > 130 + 64 * pixels;
+                        ASSERT_TRUE(!isBeside || drawn.pixel(x, y)[3] == 0)
+                            << x << ' ' << y << ' ' << pixels << ' ' << largest;
+                    }
+            }
+        }
 }
 
 /// Where cells have many pieces two of them are met at a time: even and odd numbers, of two colours and of

@@ -19,7 +19,7 @@ inline constexpr int minBlockSide = 16, maxBlockSide = 32, blockSideStep = 8;
 /// The largest blocks whose pixels' centres lie in two tiles along each axis wherever they are, the smallest
 /// if there are none. Those always do: from one centre to another it is less than 15 diagonals of a pixel,
 /// and a tile is 16 / 2 of 2.83 of them wide at least (tileLevelFor() in atlas.hpp).
-int blockSideFor(const glm::dmat2& pixelsToTiles);
+int blockSideFor(const glm::dmat2& pixelsToTiles, int largest = maxBlockSide);
 
 struct BlockGrid {
     int side = minBlockSide;

@@ -12,6 +12,7 @@
 #include <glm/matrix.hpp>
 
 #include "backend_gl/tiles/blocks.hpp"
+#include "gles_context/renderer_name.hpp"
 
 namespace vtm::gl {
 
@@ -31,6 +32,12 @@ void pointWords(GLuint index, GLint count, std::size_t stride, std::size_t offse
                            reinterpret_cast<const void*>(offset));
 }
 
+/// By name: what no name tells is not timed for this.
+bool isSoftwareByName() {
+    const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    return name != nullptr && gles_context::isSoftwareName(name).value_or(false);
+}
+
 /// What a box will show when the picture is so much larger about the same middle.
 PixelBox boxAhead(const PixelBox& box, double scale) {
     const dvec2 middle = 0.5 * dvec2(box.min + box.max), reach = 0.5 * dvec2(box.size()) / scale;
@@ -42,7 +49,7 @@ Blocks preparedBlocks(const UploadedAsset& asset, Atlas& atlas, const TileRaster
     Blocks blocks = blocksOf(raster, atlas, std::span(asset.paints).subspan(atlas.firstPaint()), tiles);
     if (const std::optional<Atlas::Zoom> zoom = atlas.zoomTo(raster.view()))
         atlas.prepareAhead(TileRaster(atlas.map(), raster.view(), boxAhead(raster.box(), zoom->scale),
-                                      raster.region().level + zoom->levels)
+                                      raster.region().level + zoom->levels, raster.grid().side)
                                .region());
     return blocks;
 }
@@ -86,7 +93,11 @@ void bindTexture(Unit unit, const TextureHandle& texture) {
 }  // namespace
 
 PictureBuffers::PictureBuffers()
-    : flatArray(makeVertexArray()), blockArray(makeVertexArray()), flat(makeBuffer()), block(makeBuffer()) {
+    : flatArray(makeVertexArray()),
+      blockArray(makeVertexArray()),
+      flat(makeBuffer()),
+      block(makeBuffer()),
+      largestBlock(isSoftwareByName() ? minBlockSide : maxBlockSide) {
     glBindVertexArray(flatArray.get());
     glBindBuffer(GL_ARRAY_BUFFER, flat.get());
     pointFloats(0, 2, sizeof(FlatVertex), offsetof(FlatVertex, position));
@@ -125,7 +136,8 @@ const Program& programOf(Programs& programs, const UploadedAsset& asset, const B
 PixelBox drawMap(Programs& programs, PictureBuffers& buffers, const UploadedAsset& asset, Atlas& atlas,
                  const asset::View& view, const PixelBox& box, Finish finish, bool markOverruns) {
     const bool scanned = atlas.isScanned(view);
-    const TileRaster raster(atlas.map(), view, box, scanned ? 0 : tileLevelFor(atlas.map(), view));
+    const TileRaster raster(atlas.map(), view, box, scanned ? 0 : tileLevelFor(atlas.map(), view),
+                            buffers.largestBlock);
     const Blocks blocks = scanned ? crowdedBlocks(raster, atlas) : preparedBlocks(asset, atlas, raster);
     if (!blocks.crowded.empty()) {
         const bool light = finish.has(Finish::LinearLight);

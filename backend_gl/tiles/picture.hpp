@@ -14,6 +14,9 @@ struct PictureBuffers {
 
     VertexArrayHandle flatArray, blockArray;
     BufferHandle flat, block;
+    /// The smallest where shaders run on the CPU: blocks cost little beside their pixels there, and small
+    /// ones are more often drawn by simple programs. On a GPU what counts is the CPU's time for each block.
+    int largestBlock;
 };
 
 /// Draws into the bound framebuffer, `view` fitting the viewport, on what stands there if blending is on: all

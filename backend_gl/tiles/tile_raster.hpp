@@ -17,7 +17,8 @@ namespace vtm::gl {
 class TileRaster {
 public:
     /// `view` is invertible and must outlive it.
-    TileRaster(const asset::Map& map, const asset::View& view, const PixelBox& box, int level);
+    TileRaster(const asset::Map& map, const asset::View& view, const PixelBox& box, int level,
+               int largestBlock);
 
     glm::dvec2 toPicture(glm::dvec2 tile) const { return corner_ + side_ * tile; }
     glm::dvec2 toPixel(glm::dvec2 tile) const { return view_->toPixels * glm::dvec3(toPicture(tile), 1); }
