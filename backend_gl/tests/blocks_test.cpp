@@ -247,20 +247,24 @@ TEST_F(Gl, BlocksOfAnySizeShowThePicture) {
 TEST_F(Gl, NothingIsDrawnBesideSmallPictures) {
     Programs programs;
     UploadedAsset uploaded(wholeSquare(), 0);
-    for (double pixels = 0.2; pixels < 0.9; pixels *= 1.07)
-        for (const double offset : {0.0, 0.25, 0.5, 7.9}) {
-            const View view{250, 250, {pixels, 0, 0, pixels, 100 + offset, 120 + offset}};
-            for (const int largest : blockSides) {
-                const image::Raster drawn = drawnInBlocks(largest, uploaded, programs, view);
-                for (int y = 0; y < view.height; ++y)
-                    for (int x = 0; x < view.width; ++x) {
-                        const bool isBeside =
-                            x < 99 || y < 119 || x > 110 + 64 * pixels || y > 130 + 64 * pixels;
-                        ASSERT_TRUE(!isBeside || drawn.pixel(x, y)[3] == 0)
-                            << x << ' ' << y << ' ' << pixels << ' ' << largest;
-                    }
+    for (double zoom = 0.5; zoom < 1; zoom *= 1.03)
+        for (const double angle : {0.0, 0.3, 0.785})
+            for (const double offset : {0.0, 0.5}) {
+                View view = turnedView(250, 250, {32, 32}, zoom, angle);
+                view.toPixels[2] += offset;
+                const glm::dmat2 toPicture = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
+                for (const int largest : blockSides) {
+                    const image::Raster drawn = drawnInBlocks(largest, uploaded, programs, view);
+                    for (int y = 0; y < view.height; ++y)
+                        for (int x = 0; x < view.width; ++x) {
+                            const dvec2 at = toPicture * (dvec2(x, y) + 0.5 - view.toPixels[2]),
+                                        off = glm::abs(at - 32.0) - 32.0;
+                            const bool isBeside = std::max(off.x, off.y) > 1 / zoom;
+                            ASSERT_TRUE(!isBeside || drawn.pixel(x, y)[3] == 0)
+                                << x << ' ' << y << ' ' << zoom << ' ' << angle << ' ' << largest;
+                        }
+                }
             }
-        }
 }
 
 /// Where cells have many pieces two of them are met at a time: even and odd numbers, of two colours and of
