@@ -208,13 +208,14 @@ Asset gradients() {
         .asset;
 }
 
-/// In blocks of up to so many pixels a side.
-image::Raster drawnInBlocks(int largest, UploadedAsset& asset, Programs& programs, const View& view) {
+/// In blocks of up to so many pixels a side, in groups of as few as that.
+image::Raster drawnInBlocks(int largest, std::size_t fewest, UploadedAsset& asset, Programs& programs,
+                            const View& view) {
     const UserFramebuffer target(GL_RGBA32F, view.width, view.height);
     glViewport(0, 0, view.width, view.height);
     glDisable(GL_BLEND);
     PictureBuffers buffers;
-    buffers.largestBlock = largest;
+    buffers.costs = {largest, fewest};
     drawPicture(programs, buffers, asset, view, {{0, 0}, {view.width, view.height}}, {}, true);
     return target.floats();
 }
@@ -233,9 +234,9 @@ TEST_F(Gl, BlocksOfAnySizeShowThePicture) {
                         const View view = turnedView(width, height, {30, 32}, pixels, angle);
                         const image::Raster expected = asset::evaluate(asset, view);
                         for (const int largest : blockSides)
-                            EXPECT_LE(
-                                worst(drawnInBlocks(largest, uploaded, programs, view), expected, identity),
-                                2 * byteStep)
+                            EXPECT_LE(worst(drawnInBlocks(largest, 1, uploaded, programs, view), expected,
+                                            identity),
+                                      2 * byteStep)
                                 << width << ' ' << angle << ' ' << pixels << ' ' << largest << ' '
                                 << maxTurns;
                     }
@@ -254,7 +255,7 @@ TEST_F(Gl, NothingIsDrawnBesideSmallPictures) {
                 view.toPixels[2] += offset;
                 const glm::dmat2 toPicture = glm::inverse(glm::dmat2(view.toPixels[0], view.toPixels[1]));
                 for (const int largest : blockSides) {
-                    const image::Raster drawn = drawnInBlocks(largest, uploaded, programs, view);
+                    const image::Raster drawn = drawnInBlocks(largest, 1, uploaded, programs, view);
                     for (int y = 0; y < view.height; ++y)
                         for (int x = 0; x < view.width; ++x) {
                             const dvec2 at = toPicture * (dvec2(x, y) + 0.5 - view.toPixels[2]),

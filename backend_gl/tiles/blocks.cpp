@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include <glm/common.hpp>
@@ -233,7 +234,7 @@ private:
 
     void addOfOneProgram(const Block& block) {
         BlockWork work = workOfPrograms(block, false);
-        std::array<std::uint32_t, 4> words{};
+        asset::Texel words{};
         bool isPlain = work.kind == BlockWork::Kind::Plain;
         for (std::size_t i = 0; isPlain && i < 4; ++i)
             if (const MetCell met = cellIn(block, i); met.tile != nullptr) {
@@ -245,7 +246,7 @@ private:
             work.kind = BlockWork::Kind::OnePlain;
         BlockVertex& vertex = put(block, work);
         if (isPlain)
-            vertex.cells = words;
+            vertex.more = words;
     }
 
     /// In the i-th of its tiles.
@@ -347,6 +348,51 @@ private:
 };
 
 }  // namespace
+
+bool BlockWork::serves(const BlockWork& other) const {
+    if (other.crowded && !crowded)
+        return false;
+    switch (kind) {
+        case Kind::Programs:
+            return true;
+        case Kind::Plain:
+            return other.kind != Kind::Programs && other.points <= points;
+        case Kind::OnePlain:
+            return other.kind == Kind::OnePlain && other.points <= points;
+        default:
+            return other.kind == Kind::Solid && (other.hasTwoColors || !hasTwoColors);
+    }
+}
+
+namespace {
+
+/// The simplest of those that serve what the group needs; the end if there are none.
+auto findServing(std::vector<BlockGroup>& groups, const BlockGroup& group) {
+    const auto cost = [](const BlockWork& work) {
+        return std::tuple(work.kind, work.crowded, work.points, !work.hasTwoColors);
+    };
+    auto found = groups.end();
+    for (auto other = groups.begin(); other != groups.end(); ++other)
+        if (&*other != &group && other->work.serves(group.work) &&
+            (found == groups.end() || cost(other->work) < cost(found->work)))
+            found = other;
+    return found;
+}
+
+}  // namespace
+
+Blocks merged(Blocks blocks, std::size_t fewest) {
+    std::vector<BlockGroup>& groups = blocks.groups;
+    std::ranges::stable_sort(groups, {}, [](const BlockGroup& group) { return group.vertices.size(); });
+    for (auto group = groups.begin(); group != groups.end() && group->vertices.size() < fewest;)
+        if (const auto serving = findServing(groups, *group); serving != groups.end()) {
+            serving->vertices.insert(serving->vertices.end(), group->vertices.begin(), group->vertices.end());
+            group = groups.erase(group);
+        } else {
+            ++group;
+        }
+    return blocks;
+}
 
 Blocks blocksOf(const TileRaster& raster, const Atlas& atlas, std::span<const asset::Paint> paints,
                 const std::vector<const Placed*>& tiles) {

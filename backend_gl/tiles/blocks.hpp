@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -44,6 +45,8 @@ struct BlockWork {
     std::uint8_t points = 0;                    ///< which of rampPoints
 
     bool operator==(const BlockWork&) const = default;
+    /// Whether what draws such blocks draws those of `other`, too.
+    bool serves(const BlockWork& other) const;
 };
 
 /// Blocks that one program draws.
@@ -62,6 +65,8 @@ struct Blocks {
 /// `tiles`: of the raster's region. `paints`: from the map's first on.
 Blocks blocksOf(const TileRaster& raster, const Atlas& atlas, std::span<const asset::Paint> paints,
                 const std::vector<const Atlas::Placed*>& tiles);
+/// Draws groups of fewer blocks together with others that serve.
+Blocks merged(Blocks blocks, std::size_t fewest);
 /// All of the map's pixels from the scanner, as those of crowded cells.
 Blocks crowdedBlocks(const TileRaster& raster, Atlas& atlas);
 

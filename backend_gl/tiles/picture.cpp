@@ -44,9 +44,11 @@ PixelBox boxAhead(const PixelBox& box, double scale) {
     return {glm::ivec2(glm::floor(middle - reach)), glm::ivec2(glm::ceil(middle + reach))};
 }
 
-Blocks preparedBlocks(const UploadedAsset& asset, Atlas& atlas, const TileRaster& raster) {
+Blocks preparedBlocks(const UploadedAsset& asset, Atlas& atlas, const TileRaster& raster,
+                      std::size_t fewest) {
     const std::vector<const Atlas::Placed*> tiles = atlas.prepare(raster.region());
-    Blocks blocks = blocksOf(raster, atlas, std::span(asset.paints).subspan(atlas.firstPaint()), tiles);
+    Blocks blocks =
+        merged(blocksOf(raster, atlas, std::span(asset.paints).subspan(atlas.firstPaint()), tiles), fewest);
     if (const std::optional<Atlas::Zoom> zoom = atlas.zoomTo(raster.view()))
         atlas.prepareAhead(TileRaster(atlas.map(), raster.view(), boxAhead(raster.box(), zoom->scale),
                                       raster.region().level + zoom->levels, raster.grid().side)
@@ -97,7 +99,7 @@ PictureBuffers::PictureBuffers()
       blockArray(makeVertexArray()),
       flat(makeBuffer()),
       block(makeBuffer()),
-      largestBlock(isSoftwareByName() ? minBlockSide : maxBlockSide) {
+      costs(isSoftwareByName() ? onCpu : onGpu) {
     glBindVertexArray(flatArray.get());
     glBindBuffer(GL_ARRAY_BUFFER, flat.get());
     pointFloats(0, 2, sizeof(FlatVertex), offsetof(FlatVertex, position));
@@ -137,8 +139,9 @@ PixelBox drawMap(Programs& programs, PictureBuffers& buffers, const UploadedAsse
                  const asset::View& view, const PixelBox& box, Finish finish, bool markOverruns) {
     const bool scanned = atlas.isScanned(view);
     const TileRaster raster(atlas.map(), view, box, scanned ? 0 : tileLevelFor(atlas.map(), view),
-                            buffers.largestBlock);
-    const Blocks blocks = scanned ? crowdedBlocks(raster, atlas) : preparedBlocks(asset, atlas, raster);
+                            buffers.costs.largestBlock);
+    const Blocks blocks =
+        scanned ? crowdedBlocks(raster, atlas) : preparedBlocks(asset, atlas, raster, buffers.costs.fewest);
     if (!blocks.crowded.empty()) {
         const bool light = finish.has(Finish::LinearLight);
         atlas.scanned().scan(view, blocks.crowded, box, raster.grid(),

@@ -7,12 +7,11 @@ layout(location = 0) in vec2 middle;  // pixels
 // Of the four tiles that a block may meet, the one with the least coordinates: its least corner in pixels, and in picture
 // coordinates.
 layout(location = 1) in vec4 leastCorner;
-// Of each of the four: the first texel, and the first cell | log2 of the cells a side << gridShift; of blocks of one plain
-// paint that paint's first word (backend_gl/tiles/plain_paints.hpp) instead.
+// Of each of the four: the first texel, and the first cell | log2 of the cells a side << gridShift.
 layout(location = 2) in uvec4 texelsOf;
 layout(location = 3) in uvec4 cellsOf;
-// Where tiles have two colours, the first pair's, as their texels have them. Where cells are crowded, how far from the
-// pixels the scanned ones are.
+// Where tiles have two colours, the first pair's, as their texels have them. Of one plain paint, its first word in each
+// tile (backend_gl/tiles/plain_paints.hpp). Where cells are crowded, how far from the pixels the scanned ones are.
 layout(location = 4) in uvec4 more;
 
 uniform vec2 targetSize;

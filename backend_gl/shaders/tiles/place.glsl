@@ -1,6 +1,6 @@
 // Where a pixel lies in its tile, and in the picture; the tile's texels.
 // Requires: fetch.glsl; block_vertex.glsl's outputs; constant tileStep.
-// Exports: pixelToTile, times, Tile, enterTile, tilePoint, picturePoint, tileTexel, unpackColor.
+// Exports: pixelToTile, times, Tile, chosen, enterTile, tilePoint, picturePoint, tileTexel, unpackColor.
 
 uniform usampler2D tiles;
 
