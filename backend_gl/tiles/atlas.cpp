@@ -181,11 +181,13 @@ void ScannedPixels::scan(const asset::View& view, std::span<const glm::ivec2> co
     for (std::size_t first = 0; first < corners.size();) {
         const std::size_t run = runAt(corners, first, columns, grid.side),
                           rows = run == columns ? rowsAt(corners, first, columns, grid.side) : 1;
+        const PixelBox blocks{corners[first], corners[first] + grid.side * glm::ivec2(run, rows)},
+            inside = blocks.intersection(box);
         const asset::View part{
-            grid.side * int(run),
-            grid.side * int(rows),
-            {view.toPixels[0], view.toPixels[1], view.toPixels[2] - glm::dvec2(corners[first])}};
-        const glm::ivec2 place = scannedPlace(first, box, grid);
+            inside.width(),
+            inside.height(),
+            {view.toPixels[0], view.toPixels[1], view.toPixels[2] - glm::dvec2(inside.min)}};
+        const glm::ivec2 place = scannedPlace(first, box, grid) + inside.min - blocks.min;
         scannerFor(sums).scan(part, [&](int y, const asset::ColorRun& colors) {
             glm::vec4* const row = pixels.data() + std::size_t(place.y + y) * std::size_t(size.x) + place.x;
             std::fill(row + colors.first, row + colors.end, colors.color);

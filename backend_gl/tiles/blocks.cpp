@@ -20,8 +20,9 @@ using glm::dvec2;
 using glm::ivec2;
 using Placed = Atlas::Placed;
 
-BlockVertex vertexAt(ivec2 corner, int side) {
-    BlockVertex vertex{};
+/// One more, where it stands.
+BlockVertex& added(std::vector<BlockVertex>& vertices, ivec2 corner, int side) {
+    BlockVertex& vertex = vertices.emplace_back();
     vertex.middle[0] = float(corner.x + side / 2);
     vertex.middle[1] = float(corner.y + side / 2);
     return vertex;
@@ -220,16 +221,17 @@ private:
     }
 
     void addMixed(const Block& block) {
-        const bool crowded = block.kinds.has(CellKind::Crowded);
-        BlockWork work = block.kinds.havePrograms() ? workOfPrograms(block, true)
-                         : crowded                  ? BlockWork()
-                                                    : workOfColors(block);
+        const bool crowded = block.kinds.has(CellKind::Crowded), programs = block.kinds.havePrograms();
+        const asset::Texel* const pair = crowded || programs ? nullptr : twoColors(block);
+        BlockWork work = programs ? workOfPrograms(block, true) : BlockWork();
         work.crowded = crowded;
+        work.hasTwoColors = pair != nullptr;
+        work.isLong = !crowded && !programs && hasLongLists(block);
         BlockVertex& vertex = put(block, work);
         if (crowded)
             putScanned(blocks_, vertex, block.corner, raster_);
-        else if (work.hasTwoColors)
-            vertex.more = *twoColors(block);
+        else if (pair != nullptr)
+            vertex.more = *pair;
     }
 
     void addOfOneProgram(const Block& block) {
@@ -278,12 +280,9 @@ private:
         return atlas_.cellAt(*met.tile, met.column, met.row);
     }
 
-    BlockWork workOfColors(const Block& block) const {
-        BlockWork work;
-        work.hasTwoColors = twoColors(block).has_value();
-        work.isLong = std::ranges::any_of(
-            block.tiles, [](const Placed* tile) { return tile != nullptr && tile->hasLongLists; });
-        return work;
+    static bool hasLongLists(const Block& block) {
+        return std::ranges::any_of(block.tiles,
+                                   [](const Placed* tile) { return tile != nullptr && tile->hasLongLists; });
     }
 
     /// `cut`: by pieces, so that it matters whether paints are steep.
@@ -302,22 +301,22 @@ private:
         return work;
     }
 
-    /// If all of its tiles with pieces have the same.
-    static std::optional<asset::Texel> twoColors(const Block& block) {
-        std::optional<asset::Texel> pair;
+    /// If all of its tiles with pieces have the same, else null.
+    static const asset::Texel* twoColors(const Block& block) {
+        const asset::Texel* pair = nullptr;
         for (const Placed* tile : block.tiles) {
             if (tile == nullptr || !kindsOf(*tile).has(CellKind::Mixed))
                 continue;
-            if (!tile->twoColors || (pair && *pair != *tile->twoColors))
-                return std::nullopt;
-            pair = tile->twoColors;
+            if (!tile->twoColors || (pair != nullptr && *pair != *tile->twoColors))
+                return nullptr;
+            pair = &*tile->twoColors;
         }
         return pair;
     }
 
     BlockVertex& put(const Block& block, const BlockWork& work) {
         drawn_.add(block.corner);
-        BlockVertex& vertex = group(work).emplace_back(vertexAt(block.corner, side_));
+        BlockVertex& vertex = added(group(work), block.corner, side_);
         const dvec2 least = dvec2(raster_.region().min + glm::i64vec2(block.window - 1)),
                     pixel = raster_.toPixel(least), picture = raster_.toPicture(least);
         vertex.corner[0] = float(pixel.x);
@@ -417,7 +416,7 @@ Blocks crowdedBlocks(const TileRaster& raster, Atlas& atlas) {
     const ivec2 least = grid.cornerAt(blocks.drawn.min);
     for (ivec2 corner = least; corner.y < blocks.drawn.max.y; corner.y += grid.side)
         for (corner.x = least.x; corner.x < blocks.drawn.max.x; corner.x += grid.side) {
-            BlockVertex& vertex = group.vertices.emplace_back(vertexAt(corner, grid.side));
+            BlockVertex& vertex = added(group.vertices, corner, grid.side);
             for (std::size_t i = 0; i < 4; ++i)
                 put(vertex, i, tile);
             putScanned(blocks, vertex, corner, raster);
