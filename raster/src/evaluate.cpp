@@ -19,6 +19,7 @@
 #include <vtm/raster/evaluator.hpp>
 #include <vtm/raster/scan.hpp>
 #include "raster/blend.hpp"
+#include "raster/drawing_threads.hpp"
 #include "raster/filter/run_filter.hpp"
 #include "raster/src/canvas.hpp"
 #include "raster/src/command_stack.hpp"
@@ -252,7 +253,7 @@ private:
     /// Materials are the caller's functions, which may be made for one thread.
     bool mayDrawAhead() const { return !materials_ && tbb::this_task_arena::max_concurrency() > 1; }
 
-    /// The next of those that are pushed on the top picture.
+    /// The next of those that are pushed on the top picture, each by a thread if they are large.
     PushedPictures drawAhead(std::span<const Command> commands) const {
         const auto most = std::size_t(2 * tbb::this_task_arena::max_concurrency());
         const View& view = pictures_.back().canvas.view();
@@ -268,13 +269,18 @@ private:
             commands = commands.subspan(count);
         }
         KeptBlocks* const blocks = KeptBlocks::ofThread();
-        tbb::parallel_for(std::size_t{0}, pushed.size(), [&, holding = limits::current()](std::size_t i) {
+        const auto draw = [&, holding = limits::current()](std::size_t i) {
             const limits::Scope scope(holding);
             const KeptBlocks::Shared shared(blocks);
             PictureStack stack(paints_, view, materials_, levels_, maps_, isAtRoot() ? keeping_ : Keeping{});
             stack.execute(pushed[i].inner());
             pushed[i].canvas = stack.take();
-        });
+        };
+        if (areThreadsWorthIt(pushed.size() * std::size_t(view.width) * std::size_t(view.height), true, 0))
+            tbb::parallel_for(std::size_t{0}, pushed.size(), draw);
+        else
+            for (std::size_t i = 0; i < pushed.size(); ++i)
+                draw(i);
         return pushed;
     }
 
