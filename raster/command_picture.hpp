@@ -14,7 +14,7 @@
 
 namespace vtm::asset {
 
-/// Draws the maps of commands of the kind DrawMap.
+/// Draws the maps of commands of the kind DrawMap: several at once.
 class MapDrawer {
 public:
     virtual ~MapDrawer() = default;

@@ -1,6 +1,7 @@
 #include "compiler/direct/filtered_drawing.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <utility>
 
 #include "compiler/compile/settings.hpp"
@@ -28,7 +29,7 @@ class PartDrawer : public asset::MapDrawer {
 public:
     /// `commands` must outlive it.
     PartDrawer(std::vector<PartPicture> parts, const Result& commands)
-        : parts_(std::move(parts)), asset_(commands.asset), warnings_(commands.warnings) {}
+        : parts_(std::move(parts)), commands_(commands), warnings_(parts_.size()) {}
 
     void add(const asset::Command& command, const asset::View& view, const asset::PixelsToAddTo& pixels,
              const asset::MaterialFunction&) const override {
@@ -44,7 +45,14 @@ public:
     /// Whether all parts could be drawn.
     bool isComplete() const { return isComplete_; }
     /// Of the commands and of all parts that were drawn.
-    std::vector<std::string> takeWarnings() { return std::move(warnings_); }
+    std::vector<std::string> warnings() const {
+        std::vector<std::string> all = commands_.warnings;
+        for (const std::vector<std::string>& ofPart : warnings_)
+            for (const std::string& warning : ofPart)
+                if (std::ranges::find(all, warning) == all.end())
+                    all.push_back(warning);
+        return all;
+    }
 
 private:
     std::unique_ptr<const PlainDrawing> drawingOf(const asset::Command& command,
@@ -52,23 +60,22 @@ private:
         if (!isComplete_)
             return nullptr;
         const PartPicture& part = parts_[command.map];
-        const asset::Map& map = asset_.maps[command.map];
+        const asset::Map& map = commands_.asset.maps[command.map];
         const asset::View ofPart{view.width, view.height,
                                  scene::compose(view.toPixels, scene::translation(map.x, map.y))};
         auto drawing = PlainDrawing::make(part.scene, part.excerpt, ofPart, part.options);
-        isComplete_ = drawing != nullptr;
         if (drawing)
-            for (const std::string& warning : drawing->warnings())
-                if (std::ranges::find(warnings_, warning) == warnings_.end())
-                    warnings_.push_back(warning);
+            warnings_[command.map] = drawing->warnings();
+        else
+            isComplete_ = false;
         return drawing;
     }
 
     const std::vector<PartPicture> parts_;  ///< by map
-    const asset::Asset& asset_;
-    // Commands are drawn one after the other.
-    mutable bool isComplete_ = true;
-    mutable std::vector<std::string> warnings_;
+    const Result& commands_;
+    // Several commands may be drawn at once, but each draws a part of its own.
+    mutable std::atomic<bool> isComplete_ = true;
+    mutable std::vector<std::vector<std::string>> warnings_;  ///< by map
 };
 
 }  // namespace
@@ -92,8 +99,7 @@ std::unique_ptr<const FilteredDrawing> FilteredDrawing::make(const scene::Scene&
     asset::CommandPicture picture(commands.asset, view, drawer);
     if (!drawer.isComplete())
         return nullptr;
-    return std::unique_ptr<const FilteredDrawing>(
-        new FilteredDrawing{std::move(picture), drawer.takeWarnings()});
+    return std::unique_ptr<const FilteredDrawing>(new FilteredDrawing{std::move(picture), drawer.warnings()});
 }
 
 }  // namespace vtm::compiler

@@ -6,6 +6,10 @@
 #include <span>
 #include <string>
 
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <vtm/limits/limits.hpp>
 #include <vtm/raster/evaluate.hpp>
 #include "compiler/filters/append_asset.hpp"
 #include "compiler/filters/bounds.hpp"
@@ -414,6 +418,40 @@ private:
     Result result_;
 };
 
+/// Parts are compiled several at a time, by all processors.
+class PartsAhead {
+public:
+    PartsAhead(std::span<const PlainPart> parts, const Excerpt& excerpt, const Options& options,
+               const CompilePlain& compilePlain)
+        : parts_(parts), excerpt_(excerpt), options_(options), compilePlain_(compilePlain) {}
+
+    /// Once each, in their order.
+    const Result& take(std::size_t part) {
+        if (part >= first_ + made_.size())
+            makeFrom(part);
+        return made_[part - first_];
+    }
+
+private:
+    void makeFrom(std::size_t first) {
+        const auto most = std::size_t(4 * tbb::this_task_arena::max_concurrency());
+        first_ = first;
+        made_ = std::vector<Result>(std::min(most, parts_.size() - first));
+        tbb::parallel_for(std::size_t{0}, made_.size(), [&, holding = limits::current()](std::size_t i) {
+            const limits::Scope scope(holding);
+            const PartPicture picture = pictureOf(parts_[first_ + i], excerpt_, options_);
+            made_[i] = compilePlain_(picture.scene, picture.excerpt, picture.options);
+        });
+    }
+
+    const std::span<const PlainPart> parts_;
+    const Excerpt& excerpt_;
+    const Options& options_;
+    const CompilePlain& compilePlain_;
+    std::size_t first_ = 0;
+    std::vector<Result> made_;  ///< of the parts from the first on
+};
+
 }  // namespace
 
 bool hasFilters(const scene::Scene& scene) { return FilterFinder().isIn(scene.root); }
@@ -446,11 +484,9 @@ Result compileFiltered(const scene::Scene& scene, const Excerpt& excerpt, const 
     if (options.filterPixels > 0)
         return Planner(excerpt, options, compilePlain).runBaked(scene.root);
     FilterPlan plan = planFiltered(scene, excerpt, options, compilePlain);
-    Result last;
-    return joinParts(std::move(plan.commands), plan.parts, excerpt, [&](std::size_t part) -> const Result& {
-        const PartPicture picture = pictureOf(plan.parts[part], excerpt, options);
-        return last = compilePlain(picture.scene, picture.excerpt, picture.options);
-    });
+    PartsAhead pictures(plan.parts, excerpt, options, compilePlain);
+    return joinParts(std::move(plan.commands), plan.parts, excerpt,
+                     [&](std::size_t part) -> const Result& { return pictures.take(part); });
 }
 
 }  // namespace vtm::compiler

@@ -21,7 +21,7 @@ namespace vtm::compiler {
 /// Whether a filter applies to the root or to anything in it.
 bool hasFilters(const scene::Scene& scene);
 
-/// Compiles a scene without filters.
+/// Compiles a scene without filters. Called by several threads at once.
 using CompilePlain = std::function<Result(const scene::Scene&, const Excerpt&, const Options&)>;
 
 /// As compile. The scene must be valid. With Options::filterPixels the picture has no filters but images.

@@ -97,13 +97,21 @@ Box moved(const Box& box, Point by) { return {box.min + by, box.max + by}; }
 
 std::shared_ptr<const image::Raster> DrawnTiles::tile(const scene::Pattern& pattern, glm::ivec2 size,
                                                       const Options& options) {
-    for (const Tile& tile : tiles_)
-        if (tile.content == pattern.content && tile.min == pattern.min && tile.max == pattern.max &&
-            tile.size == size)
-            return tile.pixels;
+    if (auto known = find(pattern, size))
+        return known;
     auto pixels = std::make_shared<const image::Raster>(drawnTile(pattern, size, options, *this));
+    const std::lock_guard lock(mutex_);
     tiles_.push_back({pattern.content, pattern.min, pattern.max, pixels, size});
     return pixels;
+}
+
+std::shared_ptr<const image::Raster> DrawnTiles::find(const scene::Pattern& pattern, glm::ivec2 size) {
+    const std::lock_guard lock(mutex_);
+    const auto found = std::ranges::find_if(tiles_, [&](const Tile& tile) {
+        return tile.content == pattern.content && tile.min == pattern.min && tile.max == pattern.max &&
+               tile.size == size;
+    });
+    return found == tiles_.end() ? nullptr : found->pixels;
 }
 
 PatternImages::PatternImages(const Options& options, double longerSide, DrawnTiles* outer)

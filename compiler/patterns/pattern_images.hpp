@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -19,8 +20,8 @@ struct TileLimits {
     double ofFill = maxTiles, ofAll = 10 * maxTiles;  ///< of one fill, of all fills
 };
 
-/// Tiles that have been drawn. Those of patterns in patterns are drawn once, however often they are asked
-/// for.
+/// Tiles that have been drawn. Those of patterns in patterns are drawn once, or once by each of the threads
+/// that ask for them at one time, however often they are asked for.
 class DrawnTiles {
 public:
     /// So many pixels.
@@ -34,6 +35,9 @@ private:
         std::shared_ptr<const image::Raster> pixels;
         glm::ivec2 size;
     };
+    std::shared_ptr<const image::Raster> find(const scene::Pattern& pattern, glm::ivec2 size);
+
+    std::mutex mutex_;  ///< guards `tiles_`
     std::vector<Tile> tiles_;
 };
 

@@ -19,6 +19,7 @@
 #include <vtm/raster/evaluator.hpp>
 #include <vtm/raster/scan.hpp>
 #include "raster/blend.hpp"
+#include "raster/drawing_threads.hpp"
 #include "raster/filter/run_filter.hpp"
 #include "raster/src/canvas.hpp"
 #include "raster/src/command_stack.hpp"
@@ -142,6 +143,8 @@ void applyMask(const Canvas& mask, Op op, Canvas& top) {
     });
 }
 
+std::size_t areaOf(const View& view) { return std::size_t(view.width) * std::size_t(view.height); }
+
 /// Where results of filters are kept.
 struct Keeping {
     FilterResults* results = nullptr;
@@ -169,7 +172,7 @@ public:
             if (maps_ && laysMap(commands)) {
                 layMap(commands[1], commands[2].opacity);
                 done = 3;
-            } else if (commands[0].kind == Command::Kind::Push && mayDrawAhead()) {
+            } else if (mayDrawAhead() && countToPop(commands) > 0) {
                 if (ahead.empty())
                     ahead = drawAhead(commands);
                 pictures_.push_back({std::move(ahead.front().canvas)});
@@ -217,64 +220,98 @@ private:
 
     // ---- Several pictures at once ----
 
-    /// From a Push to what pops it.
+    /// From what pushes a picture, or the first input of a filter, to what pops it or the filter's result.
     struct PushedPicture {
         std::span<const Command> commands;
         Canvas canvas;
 
         const Command& pop() const { return commands.back(); }
-        std::span<const Command> inner() const { return commands.subspan(1, commands.size() - 2); }
+        /// Those that make it, on a stack of its own.
+        std::span<const Command> inner() const {
+            const bool isFiltered = commands[0].kind == Command::Kind::PushInput;
+            return commands.subspan(isFiltered ? 0 : 1, commands.size() - (isFiltered ? 1 : 2));
+        }
     };
     using PushedPictures = std::deque<PushedPicture>;
 
-    /// Whether the same picture is on top afterwards, or once what it pushes is popped.
+    /// Of those that do not push: whether the same picture is on top afterwards.
     static bool staysOnTop(const Command& command) {
         switch (command.kind) {
             case Command::Kind::DrawMap:
             case Command::Kind::FillMask:
             case Command::Kind::ClipMask:
-            case Command::Kind::Push:
                 return true;
             default:
                 return false;
         }
     }
-    /// From the first, which pushes, to that which pops what it pushed.
+    /// How many commands there are from the first, if that pushes a picture by itself, to that which pops
+    /// it; else 0.
     std::size_t countToPop(std::span<const Command> commands) const {
-        std::size_t count = 0;
+        const bool isInput = commands[0].kind == Command::Kind::PushInput;
+        if (commands[0].kind != Command::Kind::Push && !(isInput && !pictures_.back().place))
+            return 0;
         int pictures = 0;
-        do
-            pictures += picturesPushed(paints_.asset(), commands[count++]);
-        while (pictures > 0);
-        return count;
+        for (std::size_t i = 0; i < commands.size(); ++i)
+            if (pictures += picturesPushed(paints_.asset(), commands[i]); pictures == 0)
+                return i + 1;
+        return 0;
     }
 
     /// Materials are the caller's functions, which may be made for one thread.
     bool mayDrawAhead() const { return !materials_ && tbb::this_task_arena::max_concurrency() > 1; }
 
-    /// The next of those that are pushed on the top picture.
+    /// Of the inputs of that of the commands' filters which needs most.
+    std::size_t inputPixels(std::span<const Command> commands, const View& below) const {
+        const AssetView& asset = paints_.asset();
+        std::size_t most = 0;
+        for (const Command& command : commands) {
+            if (command.kind != Command::Kind::Filter)
+                continue;
+            std::size_t pixels = 0;
+            for (const PixelBox& picture : placeOf(asset, asset.filters[command.map], below).pictures)
+                pixels += picture.area();
+            most = std::max(most, pixels);
+        }
+        return most;
+    }
+
+    /// The next of those that are pushed on the top picture, each by a thread if they are large. Filters take
+    /// a dozen times their inputs' memory: of several that are at work together no more than of one that has
+    /// the whole picture.
     PushedPictures drawAhead(std::span<const Command> commands) const {
-        const auto most = std::size_t(2 * tbb::this_task_arena::max_concurrency());
+        const auto most = std::size_t(8 * tbb::this_task_arena::max_concurrency());
         const View& view = pictures_.back().canvas.view();
         PushedPictures pushed;
-        while (!commands.empty() && pushed.size() < most && staysOnTop(commands[0])) {
+        std::size_t pixels = 0;
+        while (!commands.empty() && pushed.size() < most) {
             std::size_t count = 1;
             if (maps_ && laysMap(commands)) {
                 count = 3;
-            } else if (commands[0].kind == Command::Kind::Push) {
-                count = countToPop(commands);
+            } else if (const std::size_t toPop = countToPop(commands)) {
+                count = toPop;
+                pixels += inputPixels(commands.first(count), view);
+                if (!pushed.empty() && pixels > areaOf(view))
+                    break;
                 pushed.push_back({commands.first(count), Canvas(view)});
+            } else if (!staysOnTop(commands[0])) {
+                break;
             }
             commands = commands.subspan(count);
         }
         KeptBlocks* const blocks = KeptBlocks::ofThread();
-        tbb::parallel_for(std::size_t{0}, pushed.size(), [&, holding = limits::current()](std::size_t i) {
+        const auto draw = [&, holding = limits::current()](std::size_t i) {
             const limits::Scope scope(holding);
             const KeptBlocks::Shared shared(blocks);
             PictureStack stack(paints_, view, materials_, levels_, maps_, isAtRoot() ? keeping_ : Keeping{});
             stack.execute(pushed[i].inner());
             pushed[i].canvas = stack.take();
-        });
+        };
+        if (areThreadsWorthIt(pushed.size() * areaOf(view), true, 0))
+            tbb::parallel_for(std::size_t{0}, pushed.size(), draw);
+        else
+            for (std::size_t i = 0; i < pushed.size(); ++i)
+                draw(i);
         return pushed;
     }
 

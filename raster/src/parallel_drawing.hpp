@@ -52,7 +52,7 @@ public:
         constexpr std::size_t somePixels = 1u << 14, boundary = 300;
         const std::size_t pixels = std::size_t(view.width) * std::size_t(view.height);
         return pixels >= somePixels &&
-               areThreadsWorthIt(view, of.hasPrograms(), boundary * std::min(of.boundaryCount(), pixels));
+               areThreadsWorthIt(pixels, of.hasPrograms(), boundary * std::min(of.boundaryCount(), pixels));
     }
 
     /// `store`: called by several threads at once.
