@@ -18,6 +18,7 @@
 #include "backend_gl/tiles/atlas.hpp"
 #include "backend_gl/tiles/block_grid.hpp"
 #include "backend_gl/tiles/block_shape.hpp"
+#include "backend_gl/tiles/blocks.hpp"
 #include "backend_gl/tiles/picture.hpp"
 #include "backend_gl/upload/upload.hpp"
 
@@ -142,6 +143,39 @@ TEST(ScannedBlocks, StandInRowsAsLongAsTheBoxes) {
     }
 }
 
+/// Those of a few blocks join the simplest that serves; what none serves stays.
+TEST(BlockGroups, OfFewBlocksAreDrawnWithOthers) {
+    using Kind = BlockWork::Kind;
+    const auto group = [](const BlockWork& work, std::size_t count) {
+        return BlockGroup{work, std::vector<BlockVertex>(count)};
+    };
+    const auto countOf = [](const Blocks& blocks, const BlockWork& work) {
+        const auto found = std::ranges::find(blocks.groups, work, &BlockGroup::work);
+        return found == blocks.groups.end() ? 0 : found->vertices.size();
+    };
+    const BlockWork solid, twoColors{.hasTwoColors = true}, plain{.kind = Kind::Plain},
+        bent{.kind = Kind::Plain, .points = 1}, one{.kind = Kind::OnePlain},
+        crowded{.kind = Kind::Plain, .crowded = true}, programs{.kind = Kind::Programs};
+    Blocks blocks;
+    for (const auto& [work, count] : {std::pair(twoColors, 3),
+                                      {plain, 5},
+                                      {solid, 50},
+                                      {bent, 40},
+                                      {one, 7},
+                                      {crowded, 2},
+                                      {programs, 9}})
+        blocks.groups.push_back(group(work, std::size_t(count)));
+    const Blocks all = merged(blocks, 1), some = merged(blocks, 10);
+    EXPECT_EQ(all.groups.size(), blocks.groups.size());
+    EXPECT_EQ(countOf(some, solid), 53);
+    EXPECT_EQ(countOf(some, bent), 52);  // with plain ones and those of one paint
+    EXPECT_EQ(countOf(some, crowded), 2);
+    EXPECT_EQ(countOf(some, programs), 9);
+    EXPECT_EQ(some.groups.size(), 4);
+    // Neither what has to be run nor crowded blocks serve the other.
+    EXPECT_EQ(merged(blocks, 1000).groups.size(), 2);
+}
+
 /// Blocks that the picture's borders cut, also in their middles, are drawn, each pixel once.
 TEST_F(Gl, PicturesHaveAnySizeAndPlace) {
     for (const Asset& asset : assets()) {
@@ -234,11 +268,12 @@ TEST_F(Gl, BlocksOfAnySizeShowThePicture) {
                         const View view = turnedView(width, height, {30, 32}, pixels, angle);
                         const image::Raster expected = asset::evaluate(asset, view);
                         for (const int largest : blockSides)
-                            EXPECT_LE(worst(drawnInBlocks(largest, 1, uploaded, programs, view), expected,
-                                            identity),
-                                      2 * byteStep)
-                                << width << ' ' << angle << ' ' << pixels << ' ' << largest << ' '
-                                << maxTurns;
+                            for (const std::size_t fewest : {1, 1000})
+                                EXPECT_LE(worst(drawnInBlocks(largest, fewest, uploaded, programs, view),
+                                                expected, identity),
+                                          2 * byteStep)
+                                    << width << ' ' << angle << ' ' << pixels << ' ' << largest << ' '
+                                    << fewest << ' ' << maxTurns;
                     }
         }
 }
