@@ -487,7 +487,7 @@ void LineSweep::draw(const Step& step) {
     winding_ = 0;
     endedColumns_.clear();
     if (hasSpecial_ && !isOneColor_ && !state_.hasPrograms())
-        findEndedColumns();
+        findEndedColumns(step);
     if (endedColumns_.empty()) {
         drawChains(step);
     } else {

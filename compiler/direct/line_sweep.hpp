@@ -164,7 +164,7 @@ private:
     void drawInSteps(std::span<const Seen> chains, const Step& step, Shown& left, float begin, float end);
     Shown cross(std::span<const Seen> chains, const Step& step, Shown left, float begin, float end);
     void drawChains(const Step& step);
-    void findEndedColumns();
+    void findEndedColumns(const Step& step);
     void sortToEndedColumns();
     void findHeights(std::span<const std::uint32_t> members, const Step& step);
     void thinHeights(std::size_t most);
