@@ -17,6 +17,8 @@ namespace {
 constexpr double cutsInRow = 200'000;
 /// And in smaller steps, a band.
 constexpr std::size_t smallCutsInBand = 16 * 100'000;
+/// And where layers begin or end, a band.
+constexpr std::size_t endCutsInBand = 16 * 2'000'000;
 /// A region that is composited in a pixel costs as much as so many chains.
 constexpr double pixelCost = 8;
 /// A chain so near to a pixel may be in it.
@@ -26,13 +28,14 @@ constexpr std::size_t mostSteps = 64, leastSteps = 2;
 constexpr double moreForEnds = 16;
 /// Contents of parts of a row are equal if their chains are within this many pixels.
 constexpr float sameColumn = 1.0f / 1024;
-/// An edge that reaches over more columns in a step is nearly level: what it misplaces is seen.
-constexpr float mostReach = 0.25f;
 /// Chains near those take so many steps instead of one, at most.
 constexpr int mostSmallSteps = 1024;
 
 /// Where so many chains are cut, or more, of so many layers, those are looked for that are hidden in a step.
 constexpr std::size_t manyCuts = 1u << 10, manyLayers = 64;
+/// If fewer than one of so many chains are hidden, nobody looks in the rest of the row and in so many more.
+constexpr std::size_t hiddenOfOthers = 8;
+constexpr int rowsToTryAgain = 7;
 /// So many chains before one is looked at, its vertices are fetched.
 constexpr std::size_t ahead = 16;
 /// On a row of squares so many to a pixel.
@@ -122,6 +125,8 @@ void LineSweep::begin(std::span<const std::uint32_t> numbers) {
     costOfCut_ = 1;
     isMeasured_ = !state_.hasPrograms();
     isJudged_ = isTangled_ = false;
+    rowsShown_ = 0;
+    endCuts_ = endCutsInBand;
 }
 
 /// What a chain costs with the pixels that a step of the row asks for.
@@ -152,7 +157,8 @@ void LineSweep::row(float top, float bottom) {
     take(top, bottom);
     if (isTangled_)
         return drawLines(top, bottom);
-    hides_ = mayHide();
+    hides_ = rowsShown_ == 0 && mayHide();
+    rowsShown_ = std::max(rowsShown_ - 1, 0);
     remembers_ = state_.hasPrograms() && !state_.remembersMuch();
     isInPixels_ = state_.hasPrograms() && !remembers_;
     if (isInPixels_) {
@@ -162,13 +168,14 @@ void LineSweep::row(float top, float bottom) {
     }
     const bool isByContent = findSteps(top, bottom);
     // A step may take several times its share of what the band may.
-    const auto stepsLeft =
-        std::size_t(asset::bandRows - std::fmod(top, float(asset::bandRows))) * steps_.size();
+    auto stepsLeft = std::size_t(asset::bandRows - std::fmod(top, float(asset::bandRows))) * steps_.size();
     const std::size_t share = 8 * smallInBand_ / std::max<std::size_t>(stepsLeft, 1);
     drawn_ = top;
     for (const Step& step : steps_) {
         const std::size_t may = isByContent ? 0 : std::min(share, smallInBand_);
         smallSteps_ = may;
+        endCutsInStep_ = endCuts_ / std::max<std::size_t>(stepsLeft, 1);
+        stepsLeft -= stepsLeft > 0;
         draw(step);
         if (isTangled_)
             return drawLines(top, bottom);
@@ -299,24 +306,6 @@ void LineSweep::take(float top, float bottom) {
     cuts_.swap(arranged_);
 }
 
-inline void LineSweep::look(std::size_t number, const Step& step, Seen& seen) {
-    Cut& cut = cuts_[number];
-    seen.cut = std::uint32_t(number);
-    seen.layer = cut.layer;
-    seen.winding = std::int8_t(cut.winding);
-    if (!cut.spans(step))
-        return lookAgain(cut, step, seen);
-    seen.from = cut.a.x + (step.top - cut.a.y) * cut.slope;
-    seen.to = cut.a.x + (step.bottom - cut.a.y) * cut.slope;
-    seen.x = 0.5f * (seen.from + seen.to);
-    seen.left = std::min(seen.from, seen.to);
-    seen.right = std::max(seen.from, seen.to);
-    seen.isAtMiddle = true;
-    seen.hasEnd = false;
-    seen.isSpecial = seen.right - seen.left > mostReach;
-    hasSpecial_ = hasSpecial_ || seen.isSpecial;
-}
-
 /// Where the edge that was looked at last does not reach from the top to the bottom.
 void LineSweep::lookAgain(Cut& cut, const Step& step, Seen& seen) {
     findEdge(cut, step.top);
@@ -418,10 +407,11 @@ void LineSweep::lookForShown(const Step& step) {
         order_.push_back({seen.x, std::uint32_t(order_.size())});
 }
 
-/// Chains that begin, end or are nearly level in the step show if they do anywhere in it.
+/// Chains that begin, end or are nearly level in the step show if they do anywhere in it. Between those that
+/// begin or end the layer is in a part of the step only.
 bool LineSweep::isShown(std::span<const Seen> ofLayer) {
     const std::uint32_t layer = ofLayer[0].layer;
-    const LayerCover& cover = state_.cover(layer);
+    LayerCover cover = state_.cover(layer);
     if (!cover.mayBeHidden)
         return true;
     const auto square = [&](float x) {
@@ -429,12 +419,21 @@ bool LineSweep::isShown(std::span<const Seen> ofLayer) {
                           std::int32_t(squares_.size()) - 2);
     };
     touches_.clear();
+    float left = INFINITY, right = -INFINITY;  // of those that begin or end
     for (const Seen& seen : ofLayer) {
+        if (seen.hasEnd) {
+            left = std::min(left, seen.left);
+            right = std::max(right, seen.right);
+        }
         const std::int32_t winding = seen.isAtMiddle ? seen.winding : 0;
         if (seen.isSpecial)
             touches_.push_back({square(seen.left), square(seen.right), winding});
         else if (seen.isAtMiddle)
             touches_.push_back({square(seen.x), square(seen.x), winding});
+    }
+    if (left <= right) {
+        touches_.push_back({square(left), square(right), 0});
+        cover.alpha = 0;
     }
     sortStably(touches_.begin(), touches_.end(),
                [](const Touch& a, const Touch& b) { return a.first < b.first; });
@@ -461,10 +460,15 @@ void LineSweep::arrangeCuts() {
 void LineSweep::lookAndSort(const Step& step) {
     limits::check();
     hasSpecial_ = false;
-    if (hides_)
+    if (hides_) {
         lookForShown(step);
-    else
+        if (hiddenOfOthers * (cuts_.size() - seen_.size()) < cuts_.size()) {
+            hides_ = false;
+            rowsShown_ = rowsToTryAgain;
+        }
+    } else {
         lookAtAll(step);
+    }
     sortPlaces(order_, spare_);
     if (isOneLayer_ && !isArranged_)
         arrangeCuts();
@@ -481,11 +485,29 @@ void LineSweep::draw(const Step& step) {
     if (isTangled_)
         return;
     winding_ = 0;
+    endedColumns_.clear();
+    if (hasSpecial_ && !isOneColor_ && !state_.hasPrograms())
+        findEndedColumns(step);
+    if (endedColumns_.empty()) {
+        drawChains(step);
+    } else {
+        drawEndedColumns(step);  // first: chains are followed from above
+        inStep_.assign(sums_.size(), glm::vec4(0));
+        sums_.swap(inStep_);
+        drawChains(step);
+        sums_.swap(inStep_);
+        for (std::size_t i = 0; i < sums_.size(); ++i)
+            sums_[i] += inStep_[i];
+        leaveOutEndedColumns(inStep_);
+    }
+    drawn_ += step.height;
+}
+
+void LineSweep::drawChains(const Step& step) {
     if (smallSteps_ > 0 && hasSpecial_)
         drawByParts(step);
     else
         cross(sorted_, step, {}, -INFINITY, INFINITY);
-    drawn_ += step.height;
 }
 
 /// Chains that reach into the same columns, together.

@@ -50,6 +50,9 @@ public:
     bool isTangled(std::span<const std::uint32_t> numbers, float top);
 
 private:
+    /// An edge that reaches over more columns in a step is nearly level: what it misplaces is seen.
+    static constexpr float mostReach = 0.25f;
+
     struct Step {
         float top, bottom;  ///< where the chains are looked at
         float height;       ///< what it stands for
@@ -121,6 +124,23 @@ private:
         Shown left, right;
     };
 
+    /// A chain that begins or ends in a step, and the columns that it reaches there.
+    struct LayerEnd {
+        std::uint32_t layer;
+        float left, right;
+    };
+    /// Columns in which layers begin or end in a step; chains are numbers of sorted_.
+    struct EndedColumns {
+        float left, right;                   ///< whole numbers
+        std::vector<std::uint32_t> members;  ///< that reach into them
+        std::vector<std::uint32_t> onLeft;   ///< that lie between them and those before
+        bool isDrawn;                        ///< from end to end
+
+        // In the picture.
+        int first() const { return int(std::max(left, 0.0f)); }
+        int end(int width) const { return int(std::min(right, float(width))); }
+    };
+
     void begin(std::span<const std::uint32_t> numbers);
     void lookInside(const DownChain& chain);
     void row(float top, float bottom);
@@ -143,6 +163,14 @@ private:
     void drawByParts(const Step& step);
     void drawInSteps(std::span<const Seen> chains, const Step& step, Shown& left, float begin, float end);
     Shown cross(std::span<const Seen> chains, const Step& step, Shown left, float begin, float end);
+    void drawChains(const Step& step);
+    void findEndedColumns(const Step& step);
+    void sortToEndedColumns();
+    void findHeights(std::span<const std::uint32_t> members, const Step& step);
+    void thinHeights(std::size_t most);
+    void drawEndedColumns(const Step& step);
+    void leaveOutEndedColumns(std::span<const glm::vec4> changes);
+    glm::vec4 drawFromEndToEnd(const EndedColumns& columns, const Step& step);
     void crossInPixels(std::span<const Seen> chains, const Step& step, float begin, float end);
     void findLayersOfPixels(float top, float bottom);
     Shown regionHere();
@@ -203,10 +231,37 @@ private:
     std::size_t smallSteps_ = 0;        ///< chains in smaller steps that may still be taken: by the step
     std::size_t smallInBand_ = 0;       ///< and by the rest of the band
 
+    // Where layers begin and end in a step.
+    std::vector<LayerEnd> ends_;
+    std::vector<EndedColumns> endedColumns_;
+    std::vector<float> heights_;
+    std::vector<glm::vec4> inStep_, fine_;  ///< as sums_: of the step, and from end to end
+    std::size_t endCuts_ = 0;        ///< chains from end to end that may still be looked at: in the band
+    std::size_t endCutsInStep_ = 0;  ///< and in the step
+
     // Which layers show.
     bool hides_ = false;  ///< in the row
+    int rowsShown_ = 0;   ///< in so many rows to come nobody looks
     std::vector<CoveredSquare> squares_;
     std::vector<Touch> touches_;
 };
+
+inline void LineSweep::look(std::size_t number, const Step& step, Seen& seen) {
+    Cut& cut = cuts_[number];
+    seen.cut = std::uint32_t(number);
+    seen.layer = cut.layer;
+    seen.winding = std::int8_t(cut.winding);
+    if (!cut.spans(step))
+        return lookAgain(cut, step, seen);
+    seen.from = cut.a.x + (step.top - cut.a.y) * cut.slope;
+    seen.to = cut.a.x + (step.bottom - cut.a.y) * cut.slope;
+    seen.x = 0.5f * (seen.from + seen.to);
+    seen.left = std::min(seen.from, seen.to);
+    seen.right = std::max(seen.from, seen.to);
+    seen.isAtMiddle = true;
+    seen.hasEnd = false;
+    seen.isSpecial = seen.right - seen.left > mostReach;
+    hasSpecial_ = hasSpecial_ || seen.isSpecial;
+}
 
 }  // namespace vtm::compiler

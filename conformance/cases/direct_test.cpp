@@ -330,6 +330,33 @@ TEST(DrawnOnce, HiddenOutlinesChangeNothing) {
     EXPECT_LE(differenceFromLarger(plain, 4), 1.0);
 }
 
+/// Squares in squares, black and white in turn, round the middle of a picture of 64.
+scene::Scene nestedSquares(int count) {
+    scene::Scene scene;
+    scene.width = scene.height = 64;
+    for (int i = 0; i < count; ++i) {
+        const double from = 32.0 * i / count;
+        const float grey = i % 2 == 0 ? 0 : 1;
+        scene::Item item;
+        item.path =
+            std::make_shared<const scene::Path>(scene::rectangle({from, from}, {64 - from, 64 - from}));
+        item.paint = scene::Color{grey, grey, grey, 1};
+        scene.root.children.push_back({item});
+    }
+    return scene;
+}
+
+/// Seventy level sides in a pixel, which no chain tells of.
+TEST(DrawnOnce, LevelSidesInLevelStepsAreExact) {
+    const scene::Scene scene = nestedSquares(90000);
+    constexpr double scale = 40, left = 30.8, top = 34.0;
+    const asset::View view{48, 20, {scale, 0, 0, scale, -scale * left, -scale * top}};
+    const image::Raster drawn = compiler::ViewDrawing::make(scene, view)->draw();
+    for (int y = 0; y < view.height; ++y)
+        for (int x = 0; x < view.width; ++x)
+            ASSERT_NEAR(drawn.pixel(x, y)[0], 0.5, 2.5 / 255) << x << ", " << y;
+}
+
 TEST(DrawnOnce, DenseStripsDoNotDependOnEachOther) {
     for (const std::string& content :
          {crossingLines(16000, "nonzero") + stackedCircles(500), gradientStrokes(400, "stroke-width:2")}) {
