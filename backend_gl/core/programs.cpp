@@ -75,7 +75,11 @@ const Program& Programs::plainFlat(Features features, bool isBent, Finish finish
 const Program& Programs::tile(Features features, unsigned materialSet, Finish finish, bool crowded) {
     return get(crowded ? Kind::CrowdedTile : Kind::Tile, features, materialSet, finish);
 }
-const Program& Programs::twoColorTile(Finish finish) { return get(Kind::TwoColorTile, {}, 0, finish); }
+const Program& Programs::solidTile(bool twoColors, bool isLong, Finish finish) {
+    if (twoColors)
+        return get(isLong ? Kind::LongTwoColorTile : Kind::TwoColorTile, {}, 0, finish);
+    return get(isLong ? Kind::LongTile : Kind::Tile, {}, 0, finish);
+}
 const Program& Programs::plainTile(Features features, bool isBent, Finish finish, bool crowded) {
     return get(crowded ? Kind::CrowdedPlainTile : Kind::PlainTile, plainOf(features, isBent), 0, finish);
 }
@@ -154,8 +158,11 @@ bool Programs::warmUp(const std::vector<Key>& keys) {
 }
 
 bool Programs::warmUpPicture(Features features, unsigned materialSet, Finish finish) {
-    std::vector<Key> keys{keyOf(Kind::Flat, {}, 0, finish), keyOf(Kind::Tile, {}, 0, finish),
+    std::vector<Key> keys{keyOf(Kind::Flat, {}, 0, finish),
+                          keyOf(Kind::Tile, {}, 0, finish),
+                          keyOf(Kind::LongTile, {}, 0, finish),
                           keyOf(Kind::TwoColorTile, {}, 0, finish),
+                          keyOf(Kind::LongTwoColorTile, {}, 0, finish),
                           keyOf(Kind::Tile, features, materialSet, finish)};
     if (features.has(Features::Linear) || features.has(Features::Radial))
         for (const Kind kind : {Kind::PlainFlat, Kind::PlainTile})
@@ -178,6 +185,10 @@ ProgramSource Programs::source(Kind kind, Features features, Finish finish, std:
     const std::string_view crowded = kind == Kind::CrowdedTile || kind == Kind::CrowdedPlainTile
                                          ? "#define CROWDED 1\n"
                                          : "#define CROWDED 0\n";
+    const bool isLong = kind == Kind::LongTile || kind == Kind::LongTwoColorTile,
+               hasTwoColors = kind == Kind::TwoColorTile || kind == Kind::LongTwoColorTile;
+    const std::string lists =
+        fmt::format("#define TWO_COLORS {:d}\n#define LONG_LISTS {:d}\n", int(hasTwoColors), int(isLong));
     const std::string_view finishBlend = finish.flags() == 0 ? std::string_view("") : shaders::blend;
     switch (kind) {
         case Kind::Solid:
@@ -188,26 +199,27 @@ ProgramSource Programs::source(Kind kind, Features features, Finish finish, std:
             return {"flat", {flat_vertex}, {finishes, finishBlend, output, flat_fragment}};
         case Kind::Tile:
         case Kind::CrowdedTile:
+        case Kind::LongTile:
         case Kind::TwoColorTile:
+        case Kind::LongTwoColorTile:
             if (features.flags() == 0)
                 return {"tile",
-                        {tile_vertex},
-                        {crowded,
-                         kind == Kind::TwoColorTile ? "#define TWO_COLORS 1\n" : "#define TWO_COLORS 0\n",
-                         finishes, fetch, place, shadow, cell, finishBlend, output, tile_fragment}};
+                        {block_vertex},
+                        {crowded, lists, finishes, fetch, place, shadow, cell, finishBlend, output,
+                         tile_fragment}};
             return {"tile with programs",
-                    {tile_vertex},
+                    {block_vertex},
                     {crowded, defines, finishes, fetch, place, shadow, cell, shares, shaders::blend, gradient,
                      image, paint, output, tile_programs_fragment, materials}};
         case Kind::PlainFlat:
             return {
                 "plain flat",
-                {tile_vertex},
+                {block_vertex},
                 {defines, finishes, fetch, place, shaders::blend, plain_paint, output, plain_flat_fragment}};
         case Kind::PlainTile:
         case Kind::CrowdedPlainTile:
             return {"plain tile",
-                    {tile_vertex},
+                    {block_vertex},
                     {crowded, defines, finishes, fetch, place, shadow, cell, shares, shaders::blend,
                      plain_paint, output, tile_plain_fragment}};
         case Kind::Fill:
@@ -322,7 +334,8 @@ std::vector<ProgramSource> Programs::everySource() {
         add(Kind::Tile, 0, finish);
         add(Kind::Tile, allFeatures, finish);
         add(Kind::CrowdedTile, 0, finish);
-        add(Kind::TwoColorTile, 0, finish);
+        for (const Kind kind : {Kind::LongTile, Kind::TwoColorTile, Kind::LongTwoColorTile})
+            add(kind, 0, finish);
         add(Kind::CrowdedTile, allFeatures, finish);
         for (const Kind kind : {Kind::PlainFlat, Kind::PlainTile, Kind::CrowdedPlainTile})
             for (const unsigned features : {0u, unsigned(Features::Radial)})

@@ -67,14 +67,14 @@ public:
     unsigned materialSet(std::span<const asset::Material> materials);
 
     const Program& leaf(LeafProgram program);
-    /// Of a picture: tiles of one colour, and others.
+    /// Of a picture: blocks of one colour, and others.
     const Program& flat(Finish finish);
-    /// Of one plain paint (backend_gl/upload/plain_paints.hpp).
+    /// Of one plain paint (backend_gl/tiles/plain_paints.hpp).
     const Program& plainFlat(Features features, bool isBent, Finish finish);
     /// `crowded`: some cells' pixels come from a texture.
     const Program& tile(Features features, unsigned materialSet, Finish finish, bool crowded = false);
-    /// Of two solid colours, without crowded cells.
-    const Program& twoColorTile(Finish finish);
+    /// Of solid colours, two or several, without crowded cells. `isLong`: where cells have many pieces.
+    const Program& solidTile(bool twoColors, bool isLong, Finish finish);
     /// Of plain paints that change little over a pixel. `isBent`: their means are those of several points.
     const Program& plainTile(Features features, bool isBent, Finish finish, bool crowded = false);
     const Program& fill(Features features, unsigned materialSet = 0);
@@ -105,7 +105,9 @@ private:
         PlainFlat,
         Tile,
         CrowdedTile,
+        LongTile,
         TwoColorTile,
+        LongTwoColorTile,
         PlainTile,
         CrowdedPlainTile,
         Fill,

@@ -1,5 +1,6 @@
 #include "backend_gl/core/requirements.hpp"
 
+#include <array>
 #include <cstdio>
 #include <utility>
 
@@ -8,6 +9,7 @@
 
 #include "backend_gl/core/constants.hpp"
 #include "backend_gl/core/programs.hpp"
+#include "backend_gl/tiles/block_grid.hpp"
 
 namespace vtm::gl {
 
@@ -45,6 +47,11 @@ void requireContext() {
         if (limit(l.name) < l.minimum)
             throw GlError(
                 fmt::format("the driver's {} is {}: {} is needed", l.text, limit(l.name), l.minimum));
+    std::array<GLfloat, 2> pointSizes{};
+    glGetFloatv(GL_ALIASED_POINT_SIZE_RANGE, pointSizes.data());
+    if (pointSizes[1] < float(maxBlockSide))
+        throw GlError(fmt::format("the driver's largest point has {} pixels: {} are needed", pointSizes[1],
+                                  maxBlockSide));
 }
 
 std::function<unsigned()> driversResetStatus() {

@@ -9,7 +9,7 @@ namespace vtm::gl::shaders {
 extern const std::string_view prelude;
 extern const std::string_view fetch, coverage, blend, gradient, image, paint, placed_paints, leaf_integral;
 extern const std::string_view shadow, place, shares, plain_paint, tile_plain_fragment, plain_flat_fragment,
-    cell, tile_vertex, tile_fragment, tile_programs_fragment;
+    cell, block_vertex, tile_fragment, tile_programs_fragment;
 extern const std::string_view flat_vertex, flat_fragment;
 extern const std::string_view leaf_vertex, leaf_placement, solid_fragment, pieces_fragment;
 extern const std::string_view sample_asset, sample_prefilter, sample_tree, sample_maps, sample_page, sample,

@@ -148,15 +148,56 @@ const asset::Scanner& ScannedPixels::scannerFor(asset::Sums sums) {
     return *scanner;
 }
 
-void ScannedPixels::scan(const asset::View& view, const PixelBox& box, asset::Sums sums) {
-    const glm::ivec2 size = box.size();
-    const asset::View part{
-        size.x, size.y, {view.toPixels[0], view.toPixels[1], view.toPixels[2] - glm::dvec2(box.min)}};
+namespace {
+
+/// So many blocks of a row stand beside each other, among the scanned ones, too.
+std::size_t runAt(std::span<const glm::ivec2> corners, std::size_t first, std::size_t columns, int side) {
+    std::size_t end = first + 1;
+    while (end < corners.size() && end % columns != 0 &&
+           corners[end] == corners[end - 1] + glm::ivec2(side, 0))
+        ++end;
+    return end - first;
+}
+
+/// So many rows of `columns` blocks stand below each other.
+std::size_t rowsAt(std::span<const glm::ivec2> corners, std::size_t first, std::size_t columns, int side) {
+    std::size_t rows = 1;
+    for (std::size_t next = first + columns; next + columns <= corners.size(); next += columns, ++rows)
+        if (corners[next] != corners[next - columns] + glm::ivec2(0, side) ||
+            runAt(corners, next, columns, side) != columns)
+            break;
+    return rows;
+}
+
+}  // namespace
+
+/// Box by box, as blocks beside and below each other make them.
+void ScannedPixels::scan(const asset::View& view, std::span<const glm::ivec2> corners, const PixelBox& box,
+                         const BlockGrid& grid, asset::Sums sums) {
+    const auto columns = std::size_t(grid.columnsOf(box));
+    const glm::ivec2 size(grid.side * int(columns),
+                          scannedPlace(corners.size() - 1, box, grid).y + grid.side);
     std::vector<glm::vec4> pixels(std::size_t(size.x) * std::size_t(size.y));
-    scannerFor(sums).scan(part, [&](int y, const asset::ColorRun& run) {
-        glm::vec4* const row = pixels.data() + std::size_t(y) * std::size_t(size.x);
-        std::fill(row + run.first, row + run.end, run.color);
-    });
+    for (std::size_t first = 0; first < corners.size();) {
+        const std::size_t run = runAt(corners, first, columns, grid.side),
+                          rows = run == columns ? rowsAt(corners, first, columns, grid.side) : 1;
+        const PixelBox blocks{corners[first], corners[first] + grid.side * glm::ivec2(run, rows)},
+            inside = blocks.intersection(box);
+        const asset::View part{
+            inside.width(),
+            inside.height(),
+            {view.toPixels[0], view.toPixels[1], view.toPixels[2] - glm::dvec2(inside.min)}};
+        const glm::ivec2 place = scannedPlace(first, box, grid) + inside.min - blocks.min;
+        scannerFor(sums).scan(part, [&](int y, const asset::ColorRun& colors) {
+            glm::vec4* const row = pixels.data() + std::size_t(place.y + y) * std::size_t(size.x) + place.x;
+            std::fill(row + colors.first, row + colors.end, colors.color);
+        });
+        first += run * rows;
+    }
+    send(size, pixels);
+}
+
+void ScannedPixels::send(glm::ivec2 size, const std::vector<glm::vec4>& pixels) {
     if (texture_.get() == 0 || size.x > size_.x || size.y > size_.y) {
         size_ = glm::max(size_, size);
         texture_ = makeTexture(GL_RGBA32F, size_.x, size_.y);
@@ -256,29 +297,39 @@ std::vector<std::vector<const PlanarPiece*>> piecesNear(const asset::PlanarMap& 
     return near;
 }
 
-bool isCrowdedAllOver(const Tile& tile) {
-    return !tile.crowded.empty() && tile.crowded.size() == tile.texels.size();
-}
+bool isCrowdedAllOver(const Tile& tile) { return tile.cells[CellKind::Crowded] == allCells; }
 
 }  // namespace
 
 Atlas::Placed Atlas::place(Tile tile) {
-    Placed placed{.flat = tile.isFlat,
-                  .paints = tile.paints,
+    Placed placed{.paints = tile.paints,
                   .programs = tile.programs,
+                  .hasLongLists = tile.hasLongLists,
                   .steepness = tile.steepness,
-                  .paint = tile.paint,
-                  .words = tile.words,
                   .firstTexel = std::uint32_t(texels_.size()),
                   .firstPair = tile.firstPair,
                   .pairs = tile.pairs,
                   .firstCell = tile.firstCell,
                   .texelCount = std::uint32_t(tile.texels.size()),
                   .grid = tile.grid,
-                  .crowded = std::move(tile.crowded),
-                  .used = picture_};
+                  .used = picture_,
+                  .cells = tile.cells};
+    for (const CellKind kind : cellKinds)
+        placed.kinds |= std::uint8_t((tile.cells[kind] != CellSet{}) << unsigned(kind));
     texels_.insert(texels_.end(), tile.texels.begin(), tile.texels.end());
+    look(placed);
     return placed;
+}
+
+void Atlas::look(Placed& tile) const {
+    const std::span texels = std::span(texels_).subspan(tile.firstTexel, tile.texelCount);
+    tile.cell = texels[tile.firstCell];
+    tile.twoColors.reset();
+    if (tile.paints != TilePaints::Solid || tile.pairs == 0 || tile.pairs > 2)
+        return;
+    const std::span pairs = texels.subspan(tile.firstPair, 2 * tile.pairs);
+    if (tile.pairs == 1 || std::rotl(pairs[1][0], 16) == pairs[3][0])
+        tile.twoColors = pairs[0];
 }
 
 std::size_t Atlas::update(const asset::Difference& difference, const PaintUpdate& paints) {
@@ -296,13 +347,12 @@ std::size_t Atlas::update(const asset::Difference& difference, const PaintUpdate
     return paints.isChanged.empty() ? 0 : recolorAll(paints);
 }
 
-std::optional<asset::Texel> Atlas::twoColors(const Placed& tile) const {
-    if (tile.flat || tile.paints != TilePaints::Solid || tile.pairs == 0 || tile.pairs > 2)
-        return std::nullopt;
-    const std::span pairs = std::span(texels_).subspan(tile.firstTexel + tile.firstPair, 2 * tile.pairs);
-    if (tile.pairs == 2 && std::rotl(pairs[1][0], 16) != pairs[3][0])
-        return std::nullopt;
-    return pairs[0];
+const asset::Texel& Atlas::cellAt(const Placed& tile, unsigned column, unsigned row) const {
+    const unsigned log2 = tile.grid.log2;
+    if (log2 == 0)
+        return tile.cell;
+    const auto inGrid = [&](unsigned place) { return place << log2 >> tileCellsLog2; };
+    return texels_[tile.firstTexel + tile.firstCell + (inGrid(row) << log2) + inGrid(column)];
 }
 
 /// Tiles that show something of the squares.
@@ -325,12 +375,12 @@ void Atlas::forget(std::span<const asset::Cell> squares) {
 std::size_t Atlas::recolorAll(const PaintUpdate& changed) {
     const std::span isChanged = std::span(changed.isChanged).subspan(firstPaint_);
     std::size_t sent = 0;
-    for (const auto& [at, tile] : placed_) {
-        if (tile.flat)
-            continue;
+    for (auto& [at, tile] : placed_) {
         const std::span texels = std::span(texels_).subspan(tile.firstTexel, tile.texelCount);
-        if (!recolor(texels, tile.firstPair, tile.pairs, tile.firstCell, paints(), isChanged) ||
-            tile.firstTexel >= uploaded_)
+        if (!recolor(texels, tile.firstPair, tile.pairs, tile.firstCell, paints(), isChanged))
+            continue;
+        look(tile);
+        if (tile.firstTexel >= uploaded_)
             continue;
         updateTexels(texture_.get(), tile.firstTexel, texels);
         sent += texels.size_bytes();
@@ -375,23 +425,36 @@ const Atlas::Placed& Atlas::prepareCrowded() {
     return *crowded_;
 }
 
+/// Tiles stand column by column in the map.
+std::vector<Atlas::Placed*> Atlas::find(const Region& region) {
+    const auto& [level, min, max] = region;
+    const auto columns = std::size_t(max.x - min.x), rows = std::size_t(max.y - min.y);
+    std::vector<Placed*> tiles(columns * rows);
+    for (std::size_t x = 0; x < columns; ++x) {
+        auto next = placed_.lower_bound({level, min.x + std::int64_t(x), min.y});
+        for (std::size_t y = 0; y < rows && next != placed_.end(); ++y)
+            if (next->first == TilePlace{level, min.x + std::int64_t(x), min.y + std::int64_t(y)})
+                tiles[y * columns + x] = &next++->second;
+    }
+    return tiles;
+}
+
 std::vector<const Atlas::Placed*> Atlas::prepare(const Region& region) {
     makeRoom();
     ++picture_;
     addAhead(region.level);
-    if (const Work work = workOn(region); !work.places.empty())
+    std::vector<Placed*> tiles = find(region);
+    if (const Work work = workOn(region, tiles); !work.places.empty()) {
         add(region.level, makeTiles(work));
+        tiles = find(region);
+    }
     texelsOfPicture_ = 0;
-    std::vector<const Placed*> tiles;
-    for (std::int64_t y = region.min.y; y < region.max.y; ++y)
-        for (std::int64_t x = region.min.x; x < region.max.x; ++x) {
-            Placed& tile = placed_.at({region.level, x, y});
-            tile.used = picture_;
-            texelsOfPicture_ += tile.texelCount;
-            tiles.push_back(&tile);
-        }
+    for (Placed* tile : tiles) {
+        tile->used = picture_;
+        texelsOfPicture_ += tile->texelCount;
+    }
     upload();
-    return tiles;
+    return {tiles.begin(), tiles.end()};
 }
 
 std::optional<Atlas::Zoom> Atlas::zoomTo(const asset::View& view) {
@@ -410,7 +473,7 @@ std::optional<Atlas::Zoom> Atlas::zoomTo(const asset::View& view) {
 void Atlas::prepareAhead(const Region& region) {
     if (ahead_ || region.level > maxTileLevel || texels_.size() > maxTexels)
         return;
-    Work work = workOn(region);
+    Work work = workOn(region, find(region));
     if (work.places.empty())
         return;
     try {
@@ -447,12 +510,13 @@ void Atlas::addAhead(int level) {
         ahead_.reset();
 }
 
-Atlas::Work Atlas::workOn(const Region& region) {
+Atlas::Work Atlas::workOn(const Region& region, std::span<Placed* const> tiles) {
     Work work{asset_, map_, firstPaint_, maxTurns_, {}, {}, region, {}};
-    for (std::int64_t y = region.min.y; y < region.max.y; ++y)
-        for (std::int64_t x = region.min.x; x < region.max.x; ++x)
-            if (const TilePlace at{region.level, x, y}; !placed_.contains(at))
-                work.places.push_back(at);
+    const std::int64_t columns = region.max.x - region.min.x;
+    for (std::size_t i = 0; i < tiles.size(); ++i)
+        if (tiles[i] == nullptr)
+            work.places.push_back({region.level, region.min.x + std::int64_t(i) % columns,
+                                   region.min.y + std::int64_t(i) / columns});
     if (work.places.empty())
         return work;
     if (!pieces_)

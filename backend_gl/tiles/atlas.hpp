@@ -16,6 +16,7 @@
 #include <vtm/raster/view.hpp>
 #include "backend_gl/core/gl.hpp"
 #include "backend_gl/core/placement.hpp"
+#include "backend_gl/tiles/block_grid.hpp"
 #include "backend_gl/tiles/tile.hpp"
 #include "raster/steepness.hpp"
 
@@ -49,14 +50,17 @@ public:
 
     /// The asset is another one now.
     void update(const asset::Difference& difference);
-    /// Puts the pixels of a box, that is not empty, into the texture. Materials have their fallback colours.
-    void scan(const asset::View& view, const PixelBox& box, asset::Sums sums);
-    /// RGBA32F, the box's first pixel at (0, 0): what tile shaders add up, premultiplied.
+    /// Puts blocks of a box into the texture, each where scannedPlace() says. `corners`: their first pixels,
+    /// row by row. Materials have their fallback colours.
+    void scan(const asset::View& view, std::span<const glm::ivec2> corners, const PixelBox& box,
+              const BlockGrid& grid, asset::Sums sums);
+    /// RGBA32F: what tile shaders add up, premultiplied.
     const TextureHandle& texture() const { return texture_; }
 
 private:
     const asset::Scanner& scannerFor(asset::Sums sums);
     asset::AssetView drawing() const;
+    void send(glm::ivec2 size, const std::vector<glm::vec4>& pixels);
 
     const asset::Asset* asset_;
     std::uint32_t map_, firstPaint_;
@@ -89,16 +93,19 @@ public:
 
     /// What is kept of a Tile.
     struct Placed {
-        bool flat = false;  ///< one paint, no cells
         TilePaints paints = TilePaints::Solid;
         bool programs = false;  ///< those of programs among them
+        bool hasLongLists = false;
+        std::uint8_t kinds = 0;  ///< bits: of which CellKind there are cells
         float steepness = 0;
-        std::uint32_t paint = 0;  ///< of a flat one, of the map
-        PaintWords words{};       ///< of that paint
         std::uint32_t firstTexel = 0, firstPair = 0, pairs = 0, firstCell = 0, texelCount = 0;
         CellGrid grid;
-        std::vector<std::uint16_t> crowded;  ///< cells whose pixels are scanned
-        std::uint64_t used = 0;              ///< by which picture, the last time
+        std::uint64_t used = 0;  ///< by which picture, the last time
+        asset::Texel cell{};     ///< the first one
+        /// Where paints are solid, the colours beside pieces of the first pair, if no other pair but its
+        /// reverse is.
+        std::optional<asset::Texel> twoColors = std::nullopt;
+        CellSets cells;
     };
     /// Squares of a level: [min, max), row by row.
     struct Region {
@@ -109,9 +116,8 @@ public:
     std::size_t update(const asset::Difference& difference, const PaintUpdate& paints);
     /// For one picture. Makes what is missing, on all processors. May move the texture.
     std::vector<const Placed*> prepare(const Region& region);
-    /// Of a tile of solid paints, the colours beside pieces of its first pair, where no other pair but its
-    /// reverse is.
-    std::optional<asset::Texel> twoColors(const Placed& tile) const;
+    /// A cell of the first grid, of whose cells in finer ones the first.
+    const asset::Texel& cellAt(const Placed& tile, unsigned column, unsigned row) const;
     /// How a view's scale goes on from the one that was told last, if it comes near another level so.
     struct Zoom {
         int levels;    ///< 1 or -1
@@ -154,11 +160,15 @@ private:
     static Made makeTiles(const Work& work);
     static Pieces lessDetailed(const Work& work);
     /// Of a region what is missing.
-    Work workOn(const Region& region);
+    Work workOn(const Region& region, std::span<Placed* const> tiles);
     void add(int level, Made made);
     /// Some of what was made ahead, so that no picture takes long; all of it if that is for this level.
     void addAhead(int level);
     Placed place(Tile tile);
+    /// Copies what it keeps of its texels.
+    void look(Placed& tile) const;
+    /// Those of a region that are made, row by row, and null.
+    std::vector<Placed*> find(const Region& region);
     std::span<const asset::Paint> paints() const {
         return std::span(asset_->asset.paints).subspan(firstPaint_);
     }

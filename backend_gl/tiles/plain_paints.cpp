@@ -202,10 +202,21 @@ PaintWords solidWords(const asset::Paint& paint) {
     return asset::isProgram(paint) ? PaintWords{} : wordsOf(dvec4(std::bit_cast<glm::vec4>(paint)));
 }
 
-PaintWords TileWords::of(std::uint32_t paint) const {
+const PaintWords* TileWords::put(std::uint32_t paint) const {
     const auto found =
         std::ranges::lower_bound(programs_, paint, {}, &std::pair<std::uint32_t, PaintWords>::first);
-    return found != programs_.end() && found->first == paint ? found->second : solidWords(paints_[paint]);
+    return found != programs_.end() && found->first == paint ? &found->second : nullptr;
+}
+
+PaintWords TileWords::of(std::uint32_t paint) const {
+    const PaintWords* const words = put(paint);
+    return words != nullptr ? *words : solidWords(paints_[paint]);
+}
+
+PaintKind TileWords::kindOf(std::uint32_t paint) const {
+    if (const PaintWords* const words = put(paint))
+        return (*words)[1] == plainTag ? PaintKind::Plain : PaintKind::Solid;
+    return asset::isProgram(paints_[paint]) ? PaintKind::Program : PaintKind::Solid;
 }
 
 }  // namespace vtm::gl

@@ -69,6 +69,9 @@ PaintWords append(const PlainPaint& paint, std::vector<asset::Texel>& texels);
 /// Of a solid paint. Others: 0.
 PaintWords solidWords(const asset::Paint& paint);
 
+/// What a paint is near a tile.
+enum class PaintKind : std::uint8_t { Solid, Plain, Program };
+
 /// The paints of a tile as words: solid ones, and those that were put there.
 class TileWords {
 public:
@@ -77,8 +80,11 @@ public:
     /// In the order of their numbers.
     void put(std::uint32_t paint, const PaintWords& words) { programs_.emplace_back(paint, words); }
     PaintWords of(std::uint32_t paint) const;
+    PaintKind kindOf(std::uint32_t paint) const;
 
 private:
+    const PaintWords* put(std::uint32_t paint) const;
+
     std::span<const asset::Paint> paints_;
     std::vector<std::pair<std::uint32_t, PaintWords>> programs_;
 };

@@ -103,11 +103,19 @@ Lists listsOf(const CellGrid& grid, const std::vector<PlanarPiece>& pieces, doub
 /// cost more than that.
 constexpr double longList = 8, longestList = 30;
 
-CellGrid gridFor(const Lists& lists) {
+/// With more than these, whatever the grid, shaders meet two pieces at a time (tile_fragment.glsl).
+constexpr double longInMean = 4.5;
+
+/// Of the lists that are not empty.
+double meanLength(const Lists& lists) {
     std::size_t cells = 0;
     for (std::size_t i = 0; i + 1 < lists.first.size(); ++i)
         cells += lists.of(i).empty() ? 0 : 1;
-    const double mean = double(lists.numbers.size()) / double(cells);
+    return double(lists.numbers.size()) / double(cells);
+}
+
+CellGrid gridFor(const Lists& lists) {
+    const double mean = meanLength(lists);
     return {mean > longestList ? maxCellsLog2 : mean > longList ? tileCellsLog2 + 1 : tileCellsLog2};
 }
 
@@ -176,8 +184,8 @@ private:
 
 /// With those between the same two paints one after the other, where shaders gain from it: what asks paint
 /// programs for colours keeps the last two (tile_programs_fragment.glsl).
-std::vector<PlanarPiece> inOrder(std::vector<PlanarPiece> pieces, TilePaints paints) {
-    if (paints != TilePaints::Solid)
+std::vector<PlanarPiece> inOrder(std::vector<PlanarPiece> pieces, bool areColors) {
+    if (!areColors)
         std::ranges::stable_sort(pieces, {}, [](const PlanarPiece& p) {
             return std::minmax({p.left, p.right});
         });
@@ -208,48 +216,53 @@ private:
     double margin_;
 };
 
-/// Paints near a tile.
-struct PaintsNear {
-    TilePaints kind = TilePaints::Solid;
-    std::vector<std::pair<std::uint32_t, PlainPaint>> programs;  ///< all, unless some are not plain
-    double change = 0;                                           ///< the largest of those
+/// Programs near a tile.
+struct ProgramsNear {
+    std::vector<std::pair<std::uint32_t, PlainPaint>> plain;
+    TilePaints kind = TilePaints::Solid;  ///< of the plain ones
+    double change = 0;                    ///< the largest of those
+    bool hasOthers = false;               ///< which have to be run
+    bool any = false;
 
     /// Whether programs may be run.
-    bool mayRun() const { return kind == TilePaints::Any || change > asset::minSteepChange; }
-    bool arePlain() const { return kind != TilePaints::Any; }
+    bool mayRun() const { return hasOthers || change > asset::minSteepChange; }
+    bool areColors() const { return !hasOthers && kind == TilePaints::Solid; }
 };
 
 /// Texels of all layers and tables of a tile. With more, programs are run.
 constexpr std::size_t maxPlainTexels = 1u << 14;
 
-TilePaints kindOf(const PlainPaint& paint) {
+/// Nothing where the program had better be run.
+std::optional<TilePaints> kindOf(const PlainPaint& paint) {
     if (paint.layers == 0)
         return TilePaints::Solid;
     if (paint.change > maxPlainChange)
-        return TilePaints::Any;
+        return std::nullopt;
     for (std::size_t i = 0; i < rampPoints.size(); ++i)
         if (rampPoints[i].error * paint.bend <= maxPlainError)
             return TilePaints(std::size_t(TilePaints::Plain) + i);
-    return TilePaints::Any;
+    return std::nullopt;
 }
 
 /// `paints`: ascending.
-PaintsNear paintsNear(const TileSource& source, const CellPlaces& places,
-                      std::span<const std::uint32_t> paints) {
-    PaintsNear near;
+ProgramsNear programsNear(const TileSource& source, const CellPlaces& places,
+                          std::span<const std::uint32_t> paints) {
+    ProgramsNear near;
     std::size_t texels = 0;
     for (const std::uint32_t paint : paints) {
         if (!asset::isProgram(source.asset.paints[paint]))
             continue;
-        std::optional<PlainPaint> plain;
-        if (near.arePlain())
-            plain = plainPaint(source.asset, paint, places.frame());
-        near.kind = plain ? std::max(near.kind, kindOf(*plain)) : TilePaints::Any;
-        near.programs.emplace_back(paint, plain.value_or(PlainPaint()));
-        near.change = std::max(near.change, near.programs.back().second.change);
-        texels += near.programs.back().second.texels.size();
-        if (texels > maxPlainTexels)
-            near.kind = TilePaints::Any;
+        near.any = true;
+        std::optional<PlainPaint> plain = plainPaint(source.asset, paint, places.frame());
+        const std::optional<TilePaints> kind = plain ? kindOf(*plain) : std::nullopt;
+        if (!kind || texels + plain->texels.size() > maxPlainTexels) {
+            near.hasOthers = true;
+            continue;
+        }
+        texels += plain->texels.size();
+        near.kind = std::max(near.kind, *kind);
+        near.change = std::max(near.change, plain->change);
+        near.plain.emplace_back(paint, std::move(*plain));
     }
     return near;
 }
@@ -264,16 +277,19 @@ std::vector<std::uint32_t> paintsBeside(std::span<const PlanarPiece* const> piec
     return paints;
 }
 
+/// A plain paint may be off by 2/255 under an edge where it is nearly steep. Programs that are run beside it
+/// are not, as they are steep somewhere and asked for in quarters; so there it is steep from half on.
+constexpr double besideOthers = 2;
+
 /// Their layers and tables are the tile's first texels.
-TileWords putPaints(const TileSource& source, const CellPlaces& places, const PaintsNear& paints,
+TileWords putPaints(const TileSource& source, const CellPlaces& places, const ProgramsNear& programs,
                     Tile& tile) {
-    tile.paints = paints.kind;
-    tile.steepness = float(paints.change / places.stretch());
-    tile.programs = !paints.programs.empty();
+    tile.paints = programs.kind;
+    tile.steepness = float((programs.hasOthers ? besideOthers : 1) * programs.change / places.stretch());
+    tile.programs = programs.any;
     TileWords words(source.asset.paints);
-    if (paints.arePlain())
-        for (const auto& [paint, plain] : paints.programs)
-            words.put(paint, append(plain, tile.texels));
+    for (const auto& [paint, plain] : programs.plain)
+        words.put(paint, append(plain, tile.texels));
     tile.firstPair = std::uint32_t(tile.texels.size());
     return words;
 }
@@ -281,11 +297,11 @@ TileWords putPaints(const TileSource& source, const CellPlaces& places, const Pa
 /// Which cells shaders do not draw: they would take too many turns, or not be exact.
 class HandedOver {
 public:
-    HandedOver(const TileSource& source, const CellPlaces& places, const PaintsNear& paints)
+    HandedOver(const TileSource& source, const CellPlaces& places, const ProgramsNear& programs)
         : maxTurns_(source.asset.materials.empty() ? source.maxTurns : source.maxTurns * materialFactor),
-          programs_(paints.kind != TilePaints::Solid),
+          programs_(!programs.areColors()),
           costs_{source.programTurns, source.changes, asset::minSteepness(glm::dmat2(places.stretch()))} {
-        if (paints.mayRun() && source.asset.materials.empty())
+        if (programs.mayRun() && source.asset.materials.empty())
             rough_ = RoughCells(source.asset, source.changes);
     }
 
@@ -307,32 +323,41 @@ private:
     RoughCells rough_;
 };
 
-/// Of one paint, without cells, unless there are some that shaders do not draw.
-Tile flatTile(const TileSource& source, const CellPlaces& places, std::uint32_t paint) {
+/// A cell of a grid, in a set.
+void put(CellSet& set, const CellGrid& grid, int column, int row) {
+    const unsigned finer = grid.log2 - tileCellsLog2;
+    set[std::size_t(row) >> finer] |= std::uint16_t(1u << (unsigned(column) >> finer));
+}
+
+constexpr CellGrid oneCell{0};
+
+/// Of one paint. It has one cell, unless there are some that shaders do not draw.
+Tile tileOfOnePaint(const TileSource& source, const CellPlaces& places, std::uint32_t paint) {
     Tile tile;
-    tile.paint = paint;
-    const PaintsNear paints = paintsNear(source, places, {&paint, 1});
-    const TileWords words = putPaints(source, places, paints, tile);
-    tile.words = words.of(paint);
-    tile.isFlat = true;
-    if (tile.paints != TilePaints::Any)
-        return tile;
+    const ProgramsNear programs = programsNear(source, places, {&paint, 1});
+    const TileWords words = putPaints(source, places, programs, tile);
+    const PaintKind kind = words.kindOf(paint);
+    if (kind != PaintKind::Solid)
+        tile.cells[kind == PaintKind::Plain ? CellKind::Plain : CellKind::Run] = allCells;
     const std::vector<PlanarPiece> none;
-    const HandedOver isHandedOver(source, places, paints);
+    const HandedOver isHandedOver(source, places, programs);
+    const Reference here{dvec2(0.5), 0, paint};
     CellWriter writer(words, source.changes, none, tile.texels);
     std::vector<Texel> cells;
-    const int side = tile.grid.cellsPerSide();
-    for (int cell = 0; cell < side * side; ++cell) {
-        const Reference here{dvec2(0.5), 0, paint};
-        const bool crowded =
-            isHandedOver(places.pixels(tile.grid, cell % side, cell / side), paint, none, {});
-        cells.push_back(crowded ? writer.writeCrowded(here) : writer.write(here, {}));
-        if (crowded)
-            tile.crowded.push_back(std::uint16_t(cell));
+    if (programs.hasOthers)
+        for (int row = 0; row < cellsPerTile; ++row)
+            for (int column = 0; column < cellsPerTile; ++column) {
+                const bool crowded = isHandedOver(places.pixels(tile.grid, column, row), paint, none, {});
+                cells.push_back(crowded ? writer.writeCrowded(here) : writer.write(here, {}));
+                if (crowded)
+                    put(tile.cells[CellKind::Crowded], tile.grid, column, row);
+            }
+    if (tile.cells[CellKind::Crowded] == CellSet{}) {
+        tile.grid = oneCell;
+        cells = {writer.write(here, {})};
     }
-    tile.isFlat = tile.crowded.empty();
-    if (!tile.isFlat)
-        tile.texels = std::move(cells);
+    tile.firstCell = std::uint32_t(tile.texels.size());
+    tile.texels.insert(tile.texels.end(), cells.begin(), cells.end());
     return tile;
 }
 
@@ -379,9 +404,9 @@ Tile crowdedTile(std::span<const asset::Paint> paints) {
     Tile tile;
     const std::vector<PlanarPiece> none;
     const CellWriter writer(words, {}, none, tile.texels);
-    for (int cell = 0; cell < 1 << 2 * tile.grid.log2; ++cell)
-        tile.crowded.push_back(std::uint16_t(cell));
-    tile.texels.assign(tile.crowded.size(), writer.writeCrowded({dvec2(0.5), 0, 0}));
+    tile.grid = oneCell;
+    tile.cells[CellKind::Crowded] = allCells;
+    tile.texels = {writer.writeCrowded({dvec2(0.5), 0, 0})};
     return tile;
 }
 
@@ -389,17 +414,17 @@ Tile buildTile(const TileSource& source, const TilePlace& place, double margin,
                std::span<const PlanarPiece* const> near) {
     const LocalPieces local(source.pieces.map().extent, place, margin, near);
     const CellPlaces places(source, place, margin);
-    const PaintsNear paints = paintsNear(source, places, paintsBeside(near));
-    const std::vector<PlanarPiece> pieces = inOrder(local.pieces(), paints.kind);
+    const ProgramsNear programs = programsNear(source, places, paintsBeside(near));
+    const std::vector<PlanarPiece> pieces = inOrder(local.pieces(), programs.areColors());
     const Lists coarse = listsOf(CellGrid(), pieces, margin);
     const std::optional<Reference> start = startOf(source, local, coarse.numbers.empty(), near);
     if (!start)
         return crowdedTile(source.asset.paints);
     if (coarse.numbers.empty())
-        return flatTile(source, places, start->paint);
-    const HandedOver isHandedOver(source, places, paints);
+        return tileOfOnePaint(source, places, start->paint);
+    const HandedOver isHandedOver(source, places, programs);
     Tile tile;
-    const TileWords words = putPaints(source, places, paints, tile);
+    const TileWords words = putPaints(source, places, programs, tile);
     tile.grid = gridFor(coarse);
     std::optional<Lists> fine;
     if (tile.grid.log2 != CellGrid().log2)
@@ -408,6 +433,11 @@ Tile buildTile(const TileSource& source, const TilePlace& place, double margin,
     const int cellCount = tile.grid.cellsPerSide();
     std::vector<Texel> cells;
     CellWriter writer(words, source.changes, pieces, tile.texels);
+    const auto markPaint = [&](std::uint32_t paint, int column, int row) {
+        if (const PaintKind kind = words.kindOf(paint); kind != PaintKind::Solid)
+            put(tile.cells[kind == PaintKind::Plain ? CellKind::Plain : CellKind::Run], tile.grid, column,
+                row);
+    };
     Walk walk(pieces, source.hasLessDetail());
     Reference rowStart, last;
     for (int row = 0; row < cellCount; ++row)
@@ -426,13 +456,23 @@ Tile buildTile(const TileSource& source, const TilePlace& place, double margin,
                 isHandedOver(places.pixels(tile.grid, column, row), here.paint, pieces, lists.of(i));
             cells.push_back(crowded ? writer.writeCrowded(here) : writer.write(here, lists.of(i)));
             if (crowded)
-                tile.crowded.push_back(std::uint16_t(i));
+                put(tile.cells[CellKind::Crowded], tile.grid, column, row);
+            if (!lists.of(i).empty())
+                put(tile.cells[CellKind::Mixed], tile.grid, column, row);
+            if (programs.any) {
+                markPaint(here.paint, column, row);
+                for (const std::uint32_t piece : lists.of(i)) {
+                    markPaint(pieces[piece].left, column, row);
+                    markPaint(pieces[piece].right, column, row);
+                }
+            }
             last = here;
             if (column == 0)
                 rowStart = here;
         }
     tile.pairs = writer.pairs();
     tile.isConsistent = walk.isConsistent();
+    tile.hasLongLists = meanLength(lists) > longInMean;
     tile.firstCell = std::uint32_t(tile.texels.size());
     tile.texels.insert(tile.texels.end(), cells.begin(), cells.end());
     return tile;

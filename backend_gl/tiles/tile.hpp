@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstdint>
+#include <iterator>
 #include <span>
 #include <vector>
 
@@ -40,6 +41,24 @@ inline constexpr int maxTileLevel = 2 * int(asset::maxLevel);
 inline constexpr double tilePixels = 64;
 /// Cells a side; of tiles with long lists up to the second.
 inline constexpr unsigned tileCellsLog2 = 4, maxCellsLog2 = 6;
+/// Some of a tile's cells, as if it were a grid of the first size: rows, in which a column is a bit.
+inline constexpr int cellsPerTile = 1 << tileCellsLog2;
+using CellSet = std::array<std::uint16_t, cellsPerTile>;
+inline constexpr CellSet allCells = [] {
+    CellSet cells;
+    cells.fill(0xFFFF);
+    return cells;
+}();
+/// What is known of a tile's cells: which have pieces; in which some paint is plain, but no colour; in which
+/// one has to be run; which are crowded.
+enum class CellKind : std::uint8_t { Mixed, Plain, Run, Crowded };
+inline constexpr CellKind cellKinds[] = {CellKind::Mixed, CellKind::Plain, CellKind::Run, CellKind::Crowded};
+struct CellSets {
+    std::array<CellSet, std::size(cellKinds)> sets{};
+
+    CellSet& operator[](CellKind kind) { return sets[std::size_t(kind)]; }
+    const CellSet& operator[](CellKind kind) const { return sets[std::size_t(kind)]; }
+};
 /// In the word with a tile's first cell.
 inline constexpr unsigned gridShift = 28;
 /// The cells of a tile, row by row.
@@ -65,10 +84,10 @@ inline constexpr std::uint32_t crowdedBit = 1u << 31;
 /// list's first texel and, above, the rest of the length.
 inline constexpr unsigned lengthShift = 20, lowLengthBits = 11, firstTexelBits = 23;
 
-/// Those near a tile, as they are there (backend_gl/tiles/plain_paints.hpp): nothing but colours; plain ones
-/// that change little over a pixel, whose means over it are those of one, two or four points; or others among
-/// them.
-enum class TilePaints : std::uint8_t { Solid, Plain, PlainOfTwo, PlainOfFour, Any };
+/// Those near a tile, as they are there (backend_gl/tiles/plain_paints.hpp), but for programs that have to be
+/// run: nothing but colours, or plain ones that change little over a pixel, whose means over it are those of
+/// one, two or four points.
+enum class TilePaints : std::uint8_t { Solid, Plain, PlainOfTwo, PlainOfFour };
 /// By TilePaints, from Plain on: points, and how far their mean may be off, by the difference between slopes
 /// times the diagonal of a pixel. That is where a ramp is bent in a pixel's middle or between two points,
 /// which are evenly apart and have the pixel's variance.
@@ -85,8 +104,8 @@ inline constexpr double maxPlainChange = asset::minSteepChange * 2.83;
 inline constexpr double maxPlainError = 0.25 / 255;
 
 /// `texels` holds the layers and tables of plain paints, from `firstPair` the pairs of paints beside pieces,
-/// the lists of pieces and, from `firstCell`, the cells row by row; the first alone if the tile has one
-/// paint. A piece stands in the list of every cell that it matters to, so that a pixel reads its pieces one
+/// ascending, the lists of pieces and, from `firstCell`, the cells row by row; a tile of one paint has one
+/// cell. A piece stands in the list of every cell that it matters to, so that a pixel reads its pieces one
 /// after the other. Fields are packed from the lowest bit of the first word on.
 ///
 /// - Pair, two texels. First: the paints on the left and on the right as PaintWords. Second: left | right <<
@@ -98,18 +117,16 @@ inline constexpr double maxPlainError = 0.25 / 255;
 ///   lowLengthBits << firstTexelBits. With crowdedBit the list is empty: it would take more turns of loops
 ///   than a pixel may, or more texels than a tile.
 struct Tile {
-    bool isFlat = false;      ///< one paint, no cells
-    std::uint32_t paint = 0;  ///< of a flat tile
-    PaintWords words{};       ///< of that paint
     std::vector<asset::Texel> texels;
     std::uint32_t firstPair = 0, pairs = 0, firstCell = 0;
     CellGrid grid;
     TilePaints paints = TilePaints::Solid;
     bool programs = false;  ///< whether paints are programs, whatever they are there
-    /// Of plain paints: what a picture unit changes a channel by, at most. In views in which that is steep
-    /// programs are run.
+    /// Of plain paints: what a picture unit changes a channel by, at most; twice that beside programs that
+    /// have to be run. In views in which that is steep all are run.
     float steepness = 0;
-    std::vector<std::uint16_t> crowded;  ///< numbers of such cells, ascending
+    bool hasLongLists = false;  ///< so that shaders had better meet two pieces at a time
+    CellSets cells;
     /// Whether each reference point has one paint. Where levels of detail have moved boundaries over each
     /// other some may have none, and a cell beside them would be wrong.
     bool isConsistent = true;

@@ -75,15 +75,18 @@ CellWriter::CellWriter(const TileWords& words, std::span<const asset::PaintChang
                        const std::vector<PlanarPiece>& pieces, std::vector<Texel>& texels)
     : words_(words), pieces_(pieces), texels_(texels) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> pairs;  // texels
+    for (const PlanarPiece& piece : pieces)
+        pairs.try_emplace({piece.left, piece.right});
+    for (auto& [paints, texel] : pairs) {
+        const auto [left, right] = paints;
+        texel = std::uint32_t(texels.size());
+        texels.push_back(colorTexel(words.of(left), words.of(right)));
+        texels.push_back({left | right << 16, finiteBits(changes[left].steepness),
+                          finiteBits(changes[right].steepness), 0});
+    }
     for (const PlanarPiece& piece : pieces) {
         limits::check();
-        const auto [found, isNew] = pairs.try_emplace({piece.left, piece.right}, texels.size());
-        if (isNew) {
-            texels.push_back(colorTexel(words.of(piece.left), words.of(piece.right)));
-            texels.push_back({piece.left | piece.right << 16, finiteBits(changes[piece.left].steepness),
-                              finiteBits(changes[piece.right].steepness), 0});
-        }
-        geometry_.push_back(geometryTexel(piece, found->second));
+        geometry_.push_back(geometryTexel(piece, pairs.at({piece.left, piece.right})));
     }
     pairs_ = std::uint32_t(pairs.size());
 }

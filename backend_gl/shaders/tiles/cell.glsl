@@ -2,7 +2,7 @@
 // every other, fetches and all.
 // Requires: fetch.glsl, place.glsl; constants of backend_gl/tiles/tile.hpp; CROWDED defined as 1 where the tile has
 // crowded cells, else 0.
-// Exports: Cell, isFlatTile, cellAt, List, listOf, nextPiece, finishedSum.
+// Exports: Cell, cellAt, List, listOf, nextPiece, finishedSum.
 
 uint lowBits(uint word, uint count) { return word & ((1u << count) - 1u); }
 
@@ -12,16 +12,13 @@ struct Cell {
     vec2 way;  // from the reference point to it
 };
 
-bool isFlatTile() { return tileTexels.z != 0u; }
-
 Cell cellAt(vec2 pixel) {
-    uint log2 = tileTexels.y >> gridShift;
-    float side = float(1u << log2), cellSize = tilePicture.w;
+    enterTile(pixel);
+    uint log2 = tile.cells >> gridShift;
+    float side = float(1u << log2), cellSize = uintBitsToFloat((127u - log2) << 23);
     vec2 o = tilePoint(pixel);
     vec2 place = clamp(floor(o * side), 0.0, side - 1.0);
-    uvec4 texel = tileTexel(lowBits(tileTexels.y, gridShift) + (uint(place.y) << log2) + uint(place.x));
-    // A tile of one paint has no cells: what stands there is another tile's.
-    texel = isFlatTile() ? uvec4(0u) : texel;
+    uvec4 texel = tileTexel(lowBits(tile.cells, gridShift) + (uint(place.y) << log2) + uint(place.x));
     uvec2 reference = texel.xx >> uvec2(16u, 18u) & 3u;
     return Cell(texel, o, o - (place + (vec2(reference) + 0.5) / 4.0) * cellSize - referenceShift * tileStep);
 }
@@ -47,7 +44,7 @@ uvec4 nextPiece(inout List list) {
 
 #if CROWDED
 uniform sampler2D layer;  // pixels of crowded cells (backend_gl/tiles/atlas.hpp)
-uniform ivec2 scannedCorner;
+flat in uvec4 blockMore;  // their distance from the block's
 #endif
 
 uniform bool markOverruns;
@@ -59,7 +56,7 @@ vec4 finishedSum(Cell cell, vec4 sum, bool complete) {
     vec4 overrun = markOverruns ? vec4(1.0, 0.0, 1.0, 1.0) : vec4(near.rgb + 0.5 * (1.0 - near.a), 1.0);
 #if CROWDED
     if ((cell.texel.x & crowdedBit) != 0u)
-        return texelFetch(layer, ivec2(gl_FragCoord.xy) - scannedCorner, 0);
+        return texelFetch(layer, ivec2(gl_FragCoord.xy) + ivec2(blockMore.xy), 0);
 #endif
     return complete ? sum : overrun;
 }

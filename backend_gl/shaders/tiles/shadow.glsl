@@ -1,6 +1,6 @@
 // What one piece changes in a pixel: the crossings on the way from a cell's reference point R to the pixel's
 // centre O, and the piece's shadow, seen from O, in the pixel's box (docs/coverage.md).
-// Requires: place.glsl; tile_vertex.glsl's outputs; constants tileStep, tileSlopeScale, leftOfChordBit, leftOfCurveBit.
+// Requires: place.glsl; block_vertex.glsl's outputs; constants tileStep, tileSlopeScale, leftOfChordBit, leftOfCurveBit.
 // Exports: TilePiece, tilePiece, mayMeetPixel, pieceWeight, sidesOf.
 
 flat in vec4 tileToBox;

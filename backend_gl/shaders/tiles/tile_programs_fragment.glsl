@@ -35,7 +35,7 @@ vec4 valueOf(Share share, uint part) {
     if (share.paint == noPaint)
         return vec4(0.0);
     vec2 point = picturePoint(centreOf(part));
-    vec4 sides = (part == 0u ? 1.0 : 0.5) * tilePicture.z * pixelToTile;
+    vec4 sides = (part == 0u ? 1.0 : 0.5) * tileSide * pixelToTile;
     return share.weight * regionValue(paintColor(share.paint, point, mat3x2(sides.xy, sides.zw, point)));
 }
 
@@ -46,7 +46,7 @@ vec4 valueOf(Share share, uint part) {
 // loop's body once more to find that it has ended, unless the condition stands at the bottom.
 void main() {
     Cell cell = cellAt(gl_FragCoord.xy);
-    uint paint = isFlatTile() ? tileTexels.z - 1u : low(cell.texel.x);
+    uint paint = low(cell.texel.x);
     List all = listOf(cell), list = all;
     // Each turn but the last of a part shades a share: at most two of a piece, and the two that are kept at the end.
     uint turns = (1u + quarterCount) * (2u * all.left + 2u);
