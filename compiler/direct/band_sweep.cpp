@@ -230,6 +230,7 @@ bool BandSweep::slab(Slab slab) {
     if (wouldTake_ > mostInSlab)
         return false;
     toCome_ = toCome_.subspan(count);
+    state_.forgetManyRegions();
     sweepGroups(slab);
     return true;
 }

@@ -12,16 +12,21 @@ void CoveredRow::clear() {
 
 bool CoveredRow::add(std::span<const Touch> touches, const LayerCover& cover, bool isEvenOdd,
                      std::size_t& stepsLeft) {
+    std::int32_t lastOfEnds = 0;
+    for (const Touch& t : touches)
+        if (t.isEnd)
+            lastOfEnds = std::max(lastOfEnds, t.last);
     bool isShown = false;
     std::int32_t winding = 0, done = 0;
     for (const Touch& t : touches) {
+        const std::int32_t last = t.isEnd ? lastOfEnds : t.last;
         if (t.first > done && (isEvenOdd ? winding % 2 != 0 : winding != 0)) {
             isShown = isShown || isOpen(done, t.first - 1);
             coverSquares(done, t.first, cover, stepsLeft);
         }
-        isShown = isShown || isOpen(t.first, t.last);
+        isShown = isShown || isOpen(t.first, last);
         winding += t.winding;
-        done = std::max(done, t.last + 1);
+        done = std::max(done, last + 1);
     }
     return isShown;
 }

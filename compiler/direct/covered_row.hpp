@@ -15,13 +15,16 @@ struct CoveredSquare {
     std::int32_t next = 0;  ///< a square further right, up to which all are hidden; or itself
 };
 
-/// Squares [first, last] that an outline touches, and what it adds to the winding number on its right.
+/// Squares [first, last] that a chain of an outline touches, and what it adds to the winding number on its
+/// right.
 struct Touch {
     std::int32_t first, last;
     std::int32_t winding;
+    bool isEnd = false;  ///< it begins or ends within the row
 };
 
-/// A square that no outline of a layer touches is covered by it or not at all.
+/// A square that no outline of a layer touches is covered by it or not at all. Between chains that begin or
+/// end there may be level sides, of which no chain tells: an outline touches all that lies between its ends.
 class CoveredRow {
 public:
     /// The last square is beyond the row, and stays open.

@@ -193,8 +193,8 @@ void HiddenLayers::touch(const DownChain& chain, std::uint32_t& at, float top) {
         // What is not met in the middle adds nothing on its right.
         touches_[std::size_t(p.row)].push_back(
             {std::min(columnOf(p.left[0]), squareAbove(p.row, p.left[1])),
-             std::max(columnOf(p.right[0]), squareAbove(p.row, p.right[1])),
-             p.isAtMiddle ? chain.winding : 0});
+             std::max(columnOf(p.right[0]), squareAbove(p.row, p.right[1])), p.isAtMiddle ? chain.winding : 0,
+             !p.spans});
     });
 }
 

@@ -18,7 +18,7 @@ constexpr double cutsInRow = 200'000;
 /// And in smaller steps, a band.
 constexpr std::size_t smallCutsInBand = 16 * 100'000;
 /// And where layers begin or end, a band.
-constexpr std::size_t endCutsInBand = 16 * 2'000'000;
+constexpr std::size_t endCutsInBand = 16 * 600'000;
 /// A region that is composited in a pixel costs as much as so many chains.
 constexpr double pixelCost = 8;
 /// A chain so near to a pixel may be in it.
@@ -407,11 +407,10 @@ void LineSweep::lookForShown(const Step& step) {
         order_.push_back({seen.x, std::uint32_t(order_.size())});
 }
 
-/// Chains that begin, end or are nearly level in the step show if they do anywhere in it. Between those that
-/// begin or end the layer is in a part of the step only.
+/// Chains that begin, end or are nearly level in the step show if they do anywhere in it.
 bool LineSweep::isShown(std::span<const Seen> ofLayer) {
     const std::uint32_t layer = ofLayer[0].layer;
-    LayerCover cover = state_.cover(layer);
+    const LayerCover& cover = state_.cover(layer);
     if (!cover.mayBeHidden)
         return true;
     const auto square = [&](float x) {
@@ -419,21 +418,12 @@ bool LineSweep::isShown(std::span<const Seen> ofLayer) {
                           std::int32_t(squares_.size()) - 2);
     };
     touches_.clear();
-    float left = INFINITY, right = -INFINITY;  // of those that begin or end
     for (const Seen& seen : ofLayer) {
-        if (seen.hasEnd) {
-            left = std::min(left, seen.left);
-            right = std::max(right, seen.right);
-        }
         const std::int32_t winding = seen.isAtMiddle ? seen.winding : 0;
         if (seen.isSpecial)
-            touches_.push_back({square(seen.left), square(seen.right), winding});
+            touches_.push_back({square(seen.left), square(seen.right), winding, seen.hasEnd});
         else if (seen.isAtMiddle)
-            touches_.push_back({square(seen.x), square(seen.x), winding});
-    }
-    if (left <= right) {
-        touches_.push_back({square(left), square(right), 0});
-        cover.alpha = 0;
+            touches_.push_back({square(seen.x), square(seen.x), winding, false});
     }
     sortStably(touches_.begin(), touches_.end(),
                [](const Touch& a, const Touch& b) { return a.first < b.first; });
@@ -585,7 +575,8 @@ LineSweep::Shown LineSweep::cross(std::span<const Seen> chains, const Step& step
                                   float end) {
     if (isOneColor_) {
         crossOutline(chains, [&](const Seen& seen, bool isCrossed, bool isInside) {
-            addAlong(shares_, isCrossed ? seen.x : seen.from, isCrossed ? seen.x : seen.to,
+            const bool isUpright = isCrossed || seen.isBent();
+            addAlong(shares_, isUpright ? seen.x : seen.from, isUpright ? seen.x : seen.to,
                      isInside ? step.height : -step.height);
         });
         return {};
@@ -600,10 +591,11 @@ LineSweep::Shown LineSweep::cross(std::span<const Seen> chains, const Step& step
     bool isKnown = false;
     PaintChange last;
     const auto change = [&](const Seen& seen, const Shown& from, const Shown& to) {
-        PaintChange next{{&seen}, from, to};
+        PaintChange next{{&seen, seen.isBent()}, from, to};
         if (last.seen) {
-            next.isCrossed = last.crosses(seen);
-            last.isCrossed = last.isCrossed || next.isCrossed;
+            const bool crosses = last.crosses(seen);
+            next.isUpright = next.isUpright || crosses;
+            last.isUpright = last.isUpright || crosses;
             add(last, step);
         }
         last = next;
@@ -645,10 +637,11 @@ void LineSweep::crossInPixels(std::span<const Seen> chains, const Step& step, fl
             if (seen.layer < hidden && !state_.isOfClip(seen.layer))
                 continue;
             hidden = state_.hiddenByFew();
-            Change next{&seen};
+            Change next{&seen, seen.isBent()};
             if (!changes_.empty()) {
-                next.isCrossed = changes_.back().crosses(seen);
-                changes_.back().isCrossed = changes_.back().isCrossed || next.isCrossed;
+                const bool crosses = changes_.back().crosses(seen);
+                next.isUpright = next.isUpright || crosses;
+                changes_.back().isUpright = changes_.back().isUpright || crosses;
             }
             changes_.push_back(next);
         }
@@ -682,8 +675,17 @@ void LineSweep::findLayersOfPixels(float top, float bottom) {
         for (; i < cuts_.size() && cuts_[i].layer == layer; ++i) {
             Seen seen;
             look(i, {top, bottom, bottom - top}, seen);
-            touches_.push_back({column(seen.left - nearPixel), column(seen.right + nearPixel), seen.winding});
+            touches_.push_back(
+                {column(seen.left - nearPixel), column(seen.right + nearPixel), seen.winding, seen.hasEnd});
         }
+        // Level sides may lie between ends.
+        std::int32_t lastOfEnds = -1;
+        for (const Touch& touch : touches_)
+            if (touch.isEnd)
+                lastOfEnds = std::max(lastOfEnds, touch.last);
+        for (Touch& touch : touches_)
+            if (touch.isEnd)
+                touch.last = lastOfEnds;
         sortStably(touches_.begin(), touches_.end(),
                    [](const Touch& a, const Touch& b) { return a.first < b.first; });
         std::int32_t winding = 0;

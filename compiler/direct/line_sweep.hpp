@@ -84,6 +84,9 @@ private:
         bool isAtMiddle;
         bool hasEnd;     ///< it begins or ends in the step
         bool isSpecial;  ///< it does, or is nearly level there
+
+        /// It does not go straight through the step, as where a level side lies in it.
+        bool isBent() const { return std::abs(0.5f * (from + to) - x) > mostReach; }
     };
     /// A part of a row with the same chains.
     struct Piece {
@@ -113,11 +116,11 @@ private:
     /// An edge that changes what is inside.
     struct Change {
         const Seen* seen = nullptr;
-        bool isCrossed = false;  ///< another one crosses it in the step
+        bool isUpright = false;  ///< taken to be: it bends, or another one crosses it in the step
 
         bool crosses(const Seen& next) const { return seen->from > next.from || seen->to > next.to; }
-        /// Where edges cross, what each does is right in the middle of the step only.
-        Edge edge() const { return isCrossed ? Edge{seen->x, seen->x} : Edge{seen->from, seen->to}; }
+        /// Where edges cross or bend, what each does is right in the middle of the step only.
+        Edge edge() const { return isUpright ? Edge{seen->x, seen->x} : Edge{seen->from, seen->to}; }
     };
     /// And the paint.
     struct PaintChange : Change {

@@ -15,8 +15,8 @@ namespace {
 constexpr float thinStep = 1.0f / 60;
 /// Where fewer chains begin or end, the steps are thin enough.
 constexpr std::size_t manyEnds = 32;
-/// Fewer heights tell no more than the step.
-constexpr std::size_t fewestHeights = 8;
+/// Fewer heights tell little more than the step.
+constexpr std::size_t fewestHeights = 32;
 /// Heights of ends that are nearer are one.
 constexpr float sameHeight = 1.0f / 16384;
 

@@ -59,6 +59,13 @@ public:
         }
         return regions_[number];
     }
+    /// Where very many are known, none is from now on: the paints stay.
+    void forgetManyRegions() {
+        if (regions_.size() < manyRegions || hasPrograms_)
+            return;
+        known_.clear();
+        regions_.clear();
+    }
     /// The same of a region of a few pixels, whose colour is set and not remembered. Not if there are
     /// programs.
     Region regionOfPixels(glm::vec4& color);
@@ -97,7 +104,7 @@ public:
     void forgetPaints();
 
 private:
-    static constexpr std::size_t mostProgramSteps = 1u << 18;
+    static constexpr std::size_t mostProgramSteps = 1u << 18, manyRegions = 1u << 20;
 
     struct LayerState {
         std::int32_t winding = 0;

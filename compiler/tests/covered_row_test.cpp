@@ -27,8 +27,8 @@ Layer randomLayer(std::mt19937& random) {
     for (std::size_t pairs = 1 + random() % 3; pairs > 0; --pairs) {
         const auto touch = [&](std::int32_t winding) {
             const auto first = std::int32_t(random() % columns);
-            layer.touches.push_back(
-                {first, std::min(columns - 1, first + std::int32_t(random() % 3)), winding});
+            layer.touches.push_back({first, std::min(columns - 1, first + std::int32_t(random() % 3)),
+                                     winding, random() % 4 == 0});
         };
         touch(1);
         touch(-1);
@@ -43,7 +43,14 @@ Layer randomLayer(std::mt19937& random) {
 enum class Where { Outside, Inside, Touched };
 
 Where whereIs(const Layer& layer, std::int32_t column) {
-    std::int32_t winding = 0;
+    std::int32_t winding = 0, firstEnd = columns, lastEnd = -1;
+    for (const Touch& t : layer.touches)
+        if (t.isEnd) {
+            firstEnd = std::min(firstEnd, t.first);
+            lastEnd = std::max(lastEnd, t.last);
+        }
+    if (firstEnd <= column && column <= lastEnd)
+        return Where::Touched;
     for (const Touch& t : layer.touches) {
         if (t.first <= column && column <= t.last)
             return Where::Touched;

@@ -357,6 +357,29 @@ TEST(DrawnOnce, LevelSidesInLevelStepsAreExact) {
             ASSERT_NEAR(drawn.pixel(x, y)[0], 0.5, 2.5 / 255) << x << ", " << y;
 }
 
+/// Each of the squares lies a little below and to the right of the one before, so that it begins with its
+/// upper side, and ends with its lower one, in a step in which thousands are cut.
+TEST(DrawnOnce, LevelSidesInLevelStepsLeaveNoHoles) {
+    constexpr int count = 10000;
+    scene::Scene scene;
+    scene.width = scene.height = 500;
+    std::mt19937 random(1);
+    for (int i = 0; i < count; ++i) {
+        const double from = 300.0 * i / count;
+        scene::Item item;
+        item.path =
+            std::make_shared<const scene::Path>(scene::rectangle({from, from}, {from + 200, from + 200}));
+        item.paint = scene::Color{float(random() % 256) / 255, 0, 0, 1};
+        scene.root.children.push_back({item});
+    }
+    constexpr int top = 224;
+    const asset::View view{500, 32, {1, 0, 0, 1, 0, -double(top)}};
+    const image::Raster drawn = compiler::ViewDrawing::make(scene, view)->draw();
+    for (int y = 0; y < view.height; ++y)
+        for (int x = top + y - 198; x < top + y + 198; ++x)
+            ASSERT_NEAR(drawn.pixel(x, y)[3], 1, 0.5 / 255) << x << ", " << y;
+}
+
 TEST(DrawnOnce, DenseStripsDoNotDependOnEachOther) {
     for (const std::string& content :
          {crossingLines(16000, "nonzero") + stackedCircles(500), gradientStrokes(400, "stroke-width:2")}) {
