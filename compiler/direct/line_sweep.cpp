@@ -171,6 +171,9 @@ void LineSweep::row(float top, float bottom) {
     auto stepsLeft = std::size_t(asset::bandRows - std::fmod(top, float(asset::bandRows))) * steps_.size();
     const std::size_t share = 8 * smallInBand_ / std::max<std::size_t>(stepsLeft, 1);
     drawn_ = top;
+    rowReach_ = 0;
+    if (isOneColor_)
+        atTop_ = cuts_;
     for (const Step& step : steps_) {
         const std::size_t may = isByContent ? 0 : std::min(share, smallInBand_);
         smallSteps_ = may;
@@ -180,6 +183,11 @@ void LineSweep::row(float top, float bottom) {
         if (isTangled_)
             return drawLines(top, bottom);
         smallInBand_ -= may - smallSteps_;
+    }
+    if (isOneColor_ && rowReach_ > levelReach) {
+        cuts_.swap(atTop_);
+        drawLevelColumns(top, bottom);
+        cuts_.swap(atTop_);
     }
     finishRow(top, bottom);
 }
@@ -498,6 +506,9 @@ void LineSweep::drawChains(const Step& step) {
         drawByParts(step);
     else
         cross(sorted_, step, {}, -INFINITY, INFINITY);
+    if (smallSteps_ == 0 && hasSpecial_ && isOneColor_)
+        for (const Seen& seen : sorted_)
+            rowReach_ = std::max(rowReach_, (seen.right - seen.left) / step.height);
 }
 
 /// Chains that reach into the same columns, together.
@@ -536,8 +547,10 @@ void LineSweep::drawInSteps(std::span<const Seen> chains, const Step& step, Show
         reach = std::max(reach, seen.right - seen.left);
         hasEnds = hasEnds || seen.hasEnd;
     }
-    auto count = std::clamp(int(reach / mostReach) + 1, hasEnds ? 4 : 1, mostSmallSteps);
-    count = int(std::min(std::size_t(count), smallSteps_ / chains.size()));
+    const auto wanted = std::clamp(int(reach / mostReach) + 1, hasEnds ? 4 : 1, mostSmallSteps);
+    const auto count = int(std::min(std::size_t(wanted), smallSteps_ / chains.size()));
+    if (count < wanted)
+        rowReach_ = std::max(rowReach_, reach / step.height);
     if (count <= 1) {
         left = cross(chains, step, left, begin, end);
         return;
@@ -574,11 +587,7 @@ void LineSweep::drawInSteps(std::span<const Seen> chains, const Step& step, Show
 LineSweep::Shown LineSweep::cross(std::span<const Seen> chains, const Step& step, Shown left, float begin,
                                   float end) {
     if (isOneColor_) {
-        crossOutline(chains, [&](const Seen& seen, bool isCrossed, bool isInside) {
-            const bool isUpright = isCrossed || seen.isBent();
-            addAlong(shares_, isUpright ? seen.x : seen.from, isUpright ? seen.x : seen.to,
-                     isInside ? step.height : -step.height);
-        });
+        addOutline(chains, step.height, shares_);
         return {};
     }
     if (isInPixels_) {
@@ -739,6 +748,15 @@ void LineSweep::crossOutline(std::span<const Seen> chains, const Take& take) {
     }
     if (last)
         take(*last, isCrossed, isInside);
+}
+
+/// The same, as what changes from column to column.
+void LineSweep::addOutline(std::span<const Seen> chains, float height, std::vector<float>& shares) {
+    crossOutline(chains, [&](const Seen& seen, bool isCrossed, bool isInside) {
+        const bool isUpright = isCrossed || seen.isBent();
+        addAlong(shares, isUpright ? seen.x : seen.from, isUpright ? seen.x : seen.to,
+                 isInside ? height : -height);
+    });
 }
 
 /// Whether so many edges of one colour cross in the step that hardly any covers what it covers in its middle.

@@ -52,6 +52,8 @@ public:
 private:
     /// An edge that reaches over more columns in a step is nearly level: what it misplaces is seen.
     static constexpr float mostReach = 0.25f;
+    /// An edge of one colour that reaches over more columns in a row is misplaced in too many of them.
+    static constexpr float levelReach = 16;
 
     struct Step {
         float top, bottom;  ///< where the chains are looked at
@@ -144,6 +146,13 @@ private:
         int end(int width) const { return int(std::min(right, float(width))); }
     };
 
+    /// Columns beside each other, of one colour.
+    struct LevelColumns {
+        std::vector<std::uint32_t> members;  ///< of cuts_: chains that reach into them, or begin or end
+        std::int32_t winding = 0;            ///< on their left, of the others
+        bool isLevel = false;                ///< nearly level edges cross them
+    };
+
     void begin(std::span<const std::uint32_t> numbers);
     void lookInside(const DownChain& chain);
     void row(float top, float bottom);
@@ -181,6 +190,11 @@ private:
     template <class Take>
     void crossOutline(std::span<const Seen> chains, const Take& take);
     void judge();
+    void sortToLevelColumns(float top, float bottom);
+    void drawLevelColumns(float top, float bottom);
+    void drawInThinSteps(const LevelColumns& columns, std::size_t first, std::size_t end, std::size_t steps,
+                         float top, float bottom);
+    void addOutline(std::span<const Seen> chains, float height, std::vector<float>& shares);
     void drawLines(float top, float bottom);
     void addLine(std::int16_t* places, float height);
     void add(const PaintChange& change, const Step& step);
@@ -241,6 +255,12 @@ private:
     std::vector<glm::vec4> inStep_, fine_;  ///< as sums_: of the step, and from end to end
     std::size_t endCuts_ = 0;        ///< chains from end to end that may still be looked at: in the band
     std::size_t endCutsInStep_ = 0;  ///< and in the step
+
+    // Columns of one colour.
+    float rowReach_ = 0;      ///< of the row's edges the longest, where small steps are too few, columns
+    std::vector<Cut> atTop_;  ///< cuts_, before the row's steps have followed them
+    std::vector<LevelColumns> levelColumns_;
+    std::vector<float> levelChanges_, levelShares_;  ///< of some of them
 
     // Which layers show.
     bool hides_ = false;  ///< in the row
