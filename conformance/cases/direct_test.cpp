@@ -284,6 +284,28 @@ std::string starOf(int points) {
 }
 
 /// Nearly level edges by the thousand, which must not cover more than there is of a pixel.
+/// All edges are cut by the rows through the middle, where those at the sides are nearly level and cross each
+/// other: what is off is what each misplaces in a thin step.
+TEST(DrawnOnce, NearlyLevelEdgesAreNearTheMeansOfLargerPictures) {
+    const scene::Scene scene = sceneOf(starOf(100000));
+    constexpr int times = 8, width = 500, rows = 8;
+    const auto middle = [&](int larger) {
+        const double scale = width * larger / scene.width, top = (width - rows) / 2 * larger;
+        const asset::View view{width * larger, rows * larger, {scale, 0, 0, scale, 0, -top}};
+        return compiler::ViewDrawing::make(scene, view)->draw();
+    };
+    const image::Raster small = middle(1), large = middle(times);
+    constexpr double mostMisplaced = 15;
+    for (int y = 0; y < rows; ++y)
+        for (int x = 0; x < width; ++x) {
+            double sum = 0;
+            for (int i = 0; i < times * times; ++i)
+                sum += large.pixel(x * times + i % times, y * times + i / times)[3];
+            ASSERT_NEAR(255 * sum / (times * times), 255 * small.pixel(x, y)[3], mostMisplaced)
+                << x << ", " << y;
+        }
+}
+
 TEST(DrawnOnce, DensePicturesOfOneColourHaveNoOther) {
     const scene::Scene scene = sceneOf(starOf(100000));
     const image::Raster drawn = compiler::ViewDrawing::make(scene, wholePicture(scene, 500))->draw();
