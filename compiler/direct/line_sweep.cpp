@@ -538,6 +538,12 @@ void LineSweep::drawByParts(const Step& step) {
     }
 }
 
+/// From left to right.
+void LineSweep::sortPart() {
+    sortPlaces(partOrder_, spare_);
+    arrange(part_, partOrder_, partSorted_);
+}
+
 /// Some of the chains in smaller steps, as many as their reach asks for and the row may take.
 void LineSweep::drawInSteps(std::span<const Seen> chains, const Step& step, Shown& left, float begin,
                             float end) {
@@ -571,8 +577,7 @@ void LineSweep::drawInSteps(std::span<const Seen> chains, const Step& step, Show
             look(part_[p.number].cut, small, part_[p.number]);
             p.x = part_[p.number].x;
         }
-        sortPlaces(partOrder_, spare_);
-        arrange(part_, partOrder_, partSorted_);
+        sortPart();
         right = cross(partSorted_, small, left, begin, end);
         if (i + 1 < count && !isOneColor_)
             for (const Seen& seen : part_)

@@ -173,6 +173,7 @@ private:
     void lookAndSort(const Step& step);
     void draw(const Step& step);
     void drawByParts(const Step& step);
+    void sortPart();
     void drawInSteps(std::span<const Seen> chains, const Step& step, Shown& left, float begin, float end);
     Shown cross(std::span<const Seen> chains, const Step& step, Shown left, float begin, float end);
     void drawChains(const Step& step);
@@ -227,7 +228,7 @@ private:
     std::vector<Step> steps_;
     std::vector<ContentChange> contentChanges_;
     std::vector<Piece> pieces_;
-    std::vector<Seen> part_;  ///< of sorted_, in smaller steps
+    std::vector<Seen> part_;  ///< some chains, in thinner steps
     std::vector<Placed> partOrder_;
     std::vector<Seen> partSorted_;
     std::vector<float> leftmost_;  ///< in sorted_, from i on

@@ -171,10 +171,7 @@ glm::vec4 LineSweep::drawFromEndToEnd(const EndedColumns& columns, const Step& s
             partOrder_.push_back({seen.x, std::uint32_t(part_.size())});
             part_.push_back(seen);
         }
-        sortPlaces(partOrder_, spare_);
-        partSorted_.clear();
-        for (const Placed& p : partOrder_)
-            partSorted_.push_back(part_[p.number]);
+        sortPart();
         cross(partSorted_, part, left, -INFINITY, INFINITY);
         for (const Seen& seen : part_)
             state_.cross(seen.layer, -seen.winding);

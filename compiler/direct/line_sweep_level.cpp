@@ -93,10 +93,7 @@ void LineSweep::drawInThinSteps(const LevelColumns& columns, std::size_t first, 
             partOrder_.push_back({seen.x, std::uint32_t(part_.size())});
             part_.push_back(seen);
         }
-        sortPlaces(partOrder_, spare_);
-        partSorted_.clear();
-        for (const Placed& p : partOrder_)
-            partSorted_.push_back(part_[p.number]);
+        sortPart();
         winding_ = columns.winding;
         addOutline(partSorted_, height, levelChanges_);
     }
