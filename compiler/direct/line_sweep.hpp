@@ -191,7 +191,7 @@ private:
     template <class Take>
     void crossOutline(std::span<const Seen> chains, const Take& take);
     void judge();
-    void sortToLevelColumns(float top, float bottom);
+    bool sortToLevelColumns(float top, float bottom);
     void drawLevelColumns(float top, float bottom);
     void drawInThinSteps(const LevelColumns& columns, std::size_t first, std::size_t end, std::size_t steps,
                          float top, float bottom);

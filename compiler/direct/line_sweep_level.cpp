@@ -12,6 +12,8 @@ namespace {
 
 /// So many columns are drawn together.
 constexpr int columnsTogether = 16;
+/// Of all columns of a row.
+constexpr std::size_t mostMembers = 1u << 22;
 /// In so many steps, at most, in each of which all of their chains are looked at.
 constexpr std::size_t mostThinSteps = 256, cutsInThinSteps = 32'000;
 /// Fewer steps tell no more than the row's.
@@ -19,11 +21,13 @@ constexpr std::size_t timesMore = 2, fewestThinSteps = 8;
 
 }  // namespace
 
-/// Finds which chains reach into which columns, and the winding numbers on their left.
-void LineSweep::sortToLevelColumns(float top, float bottom) {
+/// Finds which chains reach into which columns, and the winding numbers on their left. False if there are too
+/// many.
+bool LineSweep::sortToLevelColumns(float top, float bottom) {
     const int count = (width_ + columnsTogether - 1) / columnsTogether;
     levelColumns_.assign(std::size_t(count), {});
     std::vector<std::int32_t> windings(std::size_t(count) + 1);
+    std::size_t members = 0;
     const auto at = [&](float x) {
         return int(std::clamp(std::floor(x / columnsTogether), -1.0f, float(count)));
     };
@@ -33,6 +37,9 @@ void LineSweep::sortToLevelColumns(float top, float bottom) {
         // What begins or ends is on the left of columns for a part of the row only.
         const int first = seen.hasEnd ? 0 : std::max(at(seen.left), 0),
                   last = seen.hasEnd ? count - 1 : std::min(at(seen.right), count - 1);
+        members += std::size_t(std::max(last + 1 - first, 0));
+        if (members > mostMembers)
+            return false;
         for (int c = first; c <= last; ++c)
             levelColumns_[std::size_t(c)].members.push_back(std::uint32_t(i));
         if (!seen.hasEnd)
@@ -44,12 +51,14 @@ void LineSweep::sortToLevelColumns(float top, float bottom) {
     std::int32_t winding = 0;
     for (std::size_t c = 0; c < levelColumns_.size(); ++c)
         levelColumns_[c].winding = winding += windings[c];
+    return true;
 }
 
 /// Replaces what the row's steps have in columns that nearly level edges cross, as far as thinner ones tell
 /// more.
 void LineSweep::drawLevelColumns(float top, float bottom) {
-    sortToLevelColumns(top, bottom);
+    if (!sortToLevelColumns(top, bottom))
+        return;
     float value = 0, before = 0;
     std::size_t x = 0;
     const auto put = [&](float now) { shares_[x++] = now - std::exchange(before, now); };
