@@ -6,7 +6,11 @@
 
 #include <tbb/task_arena.h>
 
+#include <vtm/raster/view.hpp>
+
 namespace vtm::asset {
+
+inline std::size_t pixelsIn(const View& view) { return std::size_t(view.width) * std::size_t(view.height); }
 
 /// Waking threads that sleep costs as much as filling a million pixels with a solid colour, some tenths of a
 /// millisecond. `pixels`: how many are filled; `edges`: what edges take, in pixels of such a colour.

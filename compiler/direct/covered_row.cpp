@@ -12,14 +12,11 @@ void CoveredRow::clear() {
 
 bool CoveredRow::add(std::span<const Touch> touches, const LayerCover& cover, bool isEvenOdd,
                      std::size_t& stepsLeft) {
-    std::int32_t lastOfEnds = 0;
-    for (const Touch& t : touches)
-        if (t.isEnd)
-            lastOfEnds = std::max(lastOfEnds, t.last);
+    const std::int32_t lastEnd = lastOfEnds(touches);
     bool isShown = false;
     std::int32_t winding = 0, done = 0;
     for (const Touch& t : touches) {
-        const std::int32_t last = t.isEnd ? lastOfEnds : t.last;
+        const std::int32_t last = t.isEnd ? lastEnd : t.last;
         if (t.first > done && (isEvenOdd ? winding % 2 != 0 : winding != 0)) {
             isShown = isShown || isOpen(done, t.first - 1);
             coverSquares(done, t.first, cover, stepsLeft);

@@ -2,6 +2,7 @@
 /// A row of squares that layers cover, from the top: what lies below is hidden where no light is left.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 
@@ -23,8 +24,18 @@ struct Touch {
     bool isEnd = false;  ///< it begins or ends within the row
 };
 
-/// A square that no outline of a layer touches is covered by it or not at all. Between chains that begin or
-/// end there may be level sides, of which no chain tells: an outline touches all that lies between its ends.
+/// Between chains of an outline that begin or end there may be level sides, of which no chain tells: it
+/// touches all that lies between its ends. Returns the last square that one of them touches, -1 if there are
+/// none.
+inline std::int32_t lastOfEnds(std::span<const Touch> touches) {
+    std::int32_t last = -1;
+    for (const Touch& t : touches)
+        if (t.isEnd)
+            last = std::max(last, t.last);
+    return last;
+}
+
+/// A square that no outline of a layer touches is covered by it or not at all.
 class CoveredRow {
 public:
     /// The last square is beyond the row, and stays open.

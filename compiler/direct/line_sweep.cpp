@@ -692,14 +692,10 @@ void LineSweep::findLayersOfPixels(float top, float bottom) {
             touches_.push_back(
                 {column(seen.left - nearPixel), column(seen.right + nearPixel), seen.winding, seen.hasEnd});
         }
-        // Level sides may lie between ends.
-        std::int32_t lastOfEnds = -1;
-        for (const Touch& touch : touches_)
-            if (touch.isEnd)
-                lastOfEnds = std::max(lastOfEnds, touch.last);
+        const std::int32_t lastEnd = lastOfEnds(touches_);
         for (Touch& touch : touches_)
             if (touch.isEnd)
-                touch.last = lastOfEnds;
+                touch.last = lastEnd;
         sortStably(touches_.begin(), touches_.end(),
                    [](const Touch& a, const Touch& b) { return a.first < b.first; });
         std::int32_t winding = 0;

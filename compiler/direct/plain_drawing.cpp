@@ -169,7 +169,7 @@ struct PlainDrawing::Impl {
     bool isWorthThreads() const {
         constexpr std::size_t chainInBand = 2000;  // pixels take as long, and more where chains are crowded
         const auto isProgram = [](const Source& source) { return source.op != asset::Op::Solid; };
-        return asset::areThreadsWorthIt(std::size_t(view.width) * std::size_t(view.height),
+        return asset::areThreadsWorthIt(asset::pixelsIn(view),
                                         std::ranges::any_of(picture.sources, isProgram),
                                         chainInBand * chains.inBands());
     }

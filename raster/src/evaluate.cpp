@@ -143,8 +143,6 @@ void applyMask(const Canvas& mask, Op op, Canvas& top) {
     });
 }
 
-std::size_t areaOf(const View& view) { return std::size_t(view.width) * std::size_t(view.height); }
-
 /// Where results of filters are kept.
 struct Keeping {
     FilterResults* results = nullptr;
@@ -291,7 +289,7 @@ private:
             } else if (const std::size_t toPop = countToPop(commands)) {
                 count = toPop;
                 pixels += inputPixels(commands.first(count), view);
-                if (!pushed.empty() && pixels > areaOf(view))
+                if (!pushed.empty() && pixels > pixelsIn(view))
                     break;
                 pushed.push_back({commands.first(count), Canvas(view)});
             } else if (!staysOnTop(commands[0])) {
@@ -307,7 +305,7 @@ private:
             stack.execute(pushed[i].inner());
             pushed[i].canvas = stack.take();
         };
-        if (areThreadsWorthIt(pushed.size() * areaOf(view), true, 0))
+        if (areThreadsWorthIt(pushed.size() * pixelsIn(view), true, 0))
             tbb::parallel_for(std::size_t{0}, pushed.size(), draw);
         else
             for (std::size_t i = 0; i < pushed.size(); ++i)

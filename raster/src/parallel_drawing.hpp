@@ -50,7 +50,7 @@ public:
     /// Whether it is worth it. In a small picture levels of detail leave little of many boundaries.
     static bool pays(const Scanned& of, const View& view) {
         constexpr std::size_t somePixels = 1u << 14, boundary = 300;
-        const std::size_t pixels = std::size_t(view.width) * std::size_t(view.height);
+        const std::size_t pixels = pixelsIn(view);
         return pixels >= somePixels &&
                areThreadsWorthIt(pixels, of.hasPrograms(), boundary * std::min(of.boundaryCount(), pixels));
     }
