@@ -14,8 +14,8 @@ namespace {
 constexpr int columnsTogether = 16;
 /// Of all columns of a row.
 constexpr std::size_t mostMembers = 1u << 22;
-/// In so many steps, at most, in each of which all of their chains are looked at.
-constexpr std::size_t mostThinSteps = 256, cutsInThinSteps = 32'000;
+/// In so many steps, at most, in each of which all of their chains are looked at: so many of them in a row.
+constexpr std::size_t mostThinSteps = 256, cutsInThinSteps = 1'024'000;
 /// Fewer steps tell no more than the row's.
 constexpr std::size_t timesMore = 2, fewestThinSteps = 8;
 
@@ -59,6 +59,7 @@ bool LineSweep::sortToLevelColumns(float top, float bottom) {
 void LineSweep::drawLevelColumns(float top, float bottom) {
     if (!sortToLevelColumns(top, bottom))
         return;
+    const std::size_t share = cutsInThinSteps / levelColumns_.size();
     float value = 0, before = 0;
     std::size_t x = 0;
     const auto put = [&](float now) { shares_[x++] = now - std::exchange(before, now); };
@@ -66,7 +67,7 @@ void LineSweep::drawLevelColumns(float top, float bottom) {
         const LevelColumns& columns = levelColumns_[c];
         const std::size_t first = c * columnsTogether,
                           end = std::min(first + columnsTogether, std::size_t(width_)),
-                          steps = std::min(mostThinSteps, cutsInThinSteps / (columns.members.size() + 1));
+                          steps = std::min(mostThinSteps, share / (columns.members.size() + 1));
         const bool isFiner = columns.isLevel && steps >= std::max(fewestThinSteps, timesMore * steps_.size());
         if (isFiner)
             drawInThinSteps(columns, first, end, steps, top, bottom);
