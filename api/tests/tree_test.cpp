@@ -5,6 +5,7 @@
 #include <vtm/raster/evaluate.hpp>
 #include "api/tests/tree_support.hpp"
 #include "conformance/reference/reference.hpp"
+#include "tests/test_folder.hpp"
 
 namespace vtm {
 namespace {
@@ -155,10 +156,10 @@ TEST(Tree, MaterialsHaveTextsWithEscapes) {
 
 TEST(Tree, ImagesAreReadBelowTheGivenFolderOnly) {
     const image::Bitmap bitmap{1, 1, {9, 8, 7, 255}};
-    const std::string folder = testing::TempDir();
-    image::writeFile(folder + "/dot.png", image::encodePng(bitmap));
+    const TestFolder folder;
+    image::writeFile((folder / "dot.png").string(), image::encodePng(bitmap));
     const std::string text = "vtmtree 1 size 8 8 image dot = \"dot.png\" draw image dot nearest";
-    const Tree tree = readTree(bytesOf(text), {"t", folder});
+    const Tree tree = readTree(bytesOf(text), {"t", folder.path().string()});
     const auto& paint = std::get<scene::ImagePaint>(std::get<PaintNode>(tree.vtm.node()->value).paint);
     EXPECT_EQ(paint.bitmap->rgba, bitmap.rgba);
     EXPECT_EQ(paint.filter, scene::ImageFilter::Nearest);

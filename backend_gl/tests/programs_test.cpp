@@ -8,8 +8,6 @@
 #include <regex>
 #include <set>
 
-#include <unistd.h>
-
 #include <glm/common.hpp>
 
 #include <fmt/format.h>
@@ -20,6 +18,7 @@
 #include "backend_gl/tests/gl_fixture.hpp"
 #include "paper/gl/programs.hpp"
 #include "raster/testing_views.hpp"
+#include "tests/test_folder.hpp"
 
 namespace vtm::gl {
 
@@ -89,10 +88,7 @@ TEST_F(Gl, EveryPermutationCompilesWithinTheLeastLimits) {
 TEST_F(Gl, EveryPermutationIsGlslEs300ByTheReferenceCompiler) {
     if (std::system("glslangValidator --version > /dev/null 2>&1") != 0)
         GTEST_SKIP() << "glslangValidator is not installed";
-    namespace fs = std::filesystem;
-    const fs::path folder = fs::path(testing::TempDir()) / "vtm_every_permutation";
-    fs::remove_all(folder);
-    fs::create_directories(folder);
+    const TestFolder folder;
     std::set<std::string> written;
     const auto write = [&](const std::vector<std::string>& parts, const char* stage) {
         const std::string text = joined(parts);
@@ -112,7 +108,6 @@ TEST_F(Gl, EveryPermutationIsGlslEs300ByTheReferenceCompiler) {
     EXPECT_NE(
         std::system(("glslangValidator " + (folder / "wrong.frag").string() + " > /dev/null 2>&1").c_str()),
         0);
-    fs::remove_all(folder);
 }
 
 TEST_F(Gl, CompileErrorsCarryTheDriversLog) {
@@ -236,9 +231,7 @@ protected:
             return;
         if (limit(GL_NUM_PROGRAM_BINARY_FORMATS) == 0)
             GTEST_SKIP() << "the driver has no program binaries";
-        fs::remove_all(folder);
     }
-    void TearDown() override { fs::remove_all(folder.parent_path()); }
 
     struct Drawn {
         std::vector<float> picture;
@@ -265,9 +258,8 @@ protected:
         return list;
     }
 
-    /// A process' own: tests run side by side.
-    const fs::path folder =
-        fs::path(testing::TempDir()) / fmt::format("vtm_program_cache_{}", getpid()) / "made";
+    const TestFolder parent;
+    const fs::path folder = parent / "made";
 };
 
 TEST_F(ProgramCacheTest, WhatIsKeptIsNotCompiled) {

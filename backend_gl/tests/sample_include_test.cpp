@@ -13,6 +13,7 @@
 #include "backend_gl/core/gl.hpp"
 #include "backend_gl/testing.hpp"
 #include "backend_gl/tests/gl_fixture.hpp"
+#include "tests/test_folder.hpp"
 
 namespace vtm::gl {
 namespace {
@@ -47,19 +48,17 @@ TEST_F(Gl, EveryPermutationOfTheIncludeCompiles) {
 TEST(SampleInclude, EveryPermutationIsValid) {
     if (std::system("glslangValidator --version > /dev/null 2>&1") != 0)
         GTEST_SKIP() << "glslangValidator is not installed (Debian: glslang-tools)";
-    const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "vtm_sample_include";
-    std::filesystem::create_directories(folder);
+    const TestFolder folder;
     for (unsigned flags = 0; flags < Features::combinations; ++flags)
         std::ofstream(folder / fmt::format("{:02}.frag", flags))
             << "#version 300 es\n"
             << sampleText(Features(flags), {flags % 3, flags % 16 == 5}, stripes) << fiveTextures
             << "out vec4 color;\nvoid main() { color = shade(gl_FragCoord.xy); }\n";
     const std::string log = (folder / "log").string();
-    const int status =
-        std::system(fmt::format("cd '{}' && glslangValidator *.frag > log 2>&1", folder.string()).c_str());
+    const int status = std::system(
+        fmt::format("cd '{}' && glslangValidator *.frag > log 2>&1", folder.path().string()).c_str());
     std::ifstream text(log);
     EXPECT_EQ(status, 0) << std::string(std::istreambuf_iterator<char>(text), {}).substr(0, 2000);
-    std::filesystem::remove_all(folder);
 }
 
 TEST_F(Gl, TheIncludeLeavesAllNamesToTheUser) {

@@ -1,13 +1,13 @@
 #include <vtm/image/codec.hpp>
 
-#include <unistd.h>
-
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <random>
+
+#include "tests/test_folder.hpp"
 
 namespace vtm::image {
 namespace {
@@ -48,12 +48,11 @@ TEST(Codec, HugePngIsRefusedBeforeItsPixelsAreAllocated) {
 }
 
 TEST(Codec, FilesSurviveWritingAndReading) {
-    const std::string path =
-        (std::filesystem::temp_directory_path() / ("vtm_codec_test_" + std::to_string(getpid()))).string();
+    const TestFolder folder;
+    const std::string path = (folder / "file").string();
     const std::vector<std::uint8_t> bytes{0, 1, 255, 13, 10};
     writeFile(path, bytes);
     EXPECT_EQ(readFile(path), bytes);
-    std::filesystem::remove(path);
 }
 
 TEST(Codec, MissingFileIsNamed) {

@@ -15,6 +15,8 @@
 
 #include <vtm/image/codec.hpp>
 
+#include "tests/test_folder.hpp"
+
 namespace vtm::image {
 namespace {
 
@@ -23,16 +25,9 @@ using Bytes = std::vector<std::uint8_t>;
 
 class Files : public testing::Test {
 protected:
-    void SetUp() override {
-        std::string name = (fs::temp_directory_path() / "vtm_files_XXXXXX").string();
-        ASSERT_NE(mkdtemp(name.data()), nullptr);
-        folder_ = name;
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
     std::string at(const std::string& name) const { return (folder_ / name).string(); }
     std::size_t count() const {
-        return std::size_t(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+        return std::size_t(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()));
     }
     static mode_t modeOf(const std::string& path) {
         struct stat status {};
@@ -48,7 +43,7 @@ protected:
         return "";
     }
 
-    fs::path folder_;
+    const TestFolder folder_;
     const Bytes old_{1, 2, 3}, new_{4, 5, 6, 7};
 };
 
@@ -148,7 +143,7 @@ TEST_F(Files, ErrorsNameThePathAndTheCause) {
         messageOf(at("none/a"))
             .find("none/a: cannot be written: cannot create a temporary file in its directory: No such"),
         std::string::npos);
-    EXPECT_NE(messageOf(folder_.string()).find("Is a directory"), std::string::npos);
+    EXPECT_NE(messageOf(folder_.path().string()).find("Is a directory"), std::string::npos);
     EXPECT_NE(messageOf(at(std::string(300, 'a'))).find("File name too long"), std::string::npos);
 }
 

@@ -8,6 +8,7 @@
 #include "svg/geometry/path_geometry.hpp"
 #include "svg/tests/support.hpp"
 #include "svg/xml/resource.hpp"
+#include "tests/test_folder.hpp"
 
 namespace vtm::svg {
 namespace {
@@ -110,19 +111,16 @@ TEST(Image, BrokenOnesAreWarnings) {
 class ImageFiles : public testing::Test {
 protected:
     void SetUp() override {
-        folder_ = std::filesystem::temp_directory_path() / ("vtm_svg_image_test_" + std::to_string(getpid()));
-        std::filesystem::create_directories(folder_);
         std::ofstream(folder_ / "a b.svg")
             << document("<rect width='1' height='1'/><image href='a%20b.svg'/>");
     }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
     Document load(std::string_view body, bool mayRead = true) const {
         Options options;
         if (mayRead)
-            options.resourceDirectory = folder_.string();
+            options.resourceDirectory = folder_.path().string();
         return loadText(document(body), options);
     }
-    std::filesystem::path folder_;
+    const TestFolder folder_;
 };
 
 TEST_F(ImageFiles, AreReadBelowTheResourceDirectory) {
@@ -137,7 +135,7 @@ TEST_F(ImageFiles, OutsideOfTheRootAreNotRead) {
         const std::string body = std::string("<image href='") + href + "'/>";
         options.resourceRoot.clear();
         EXPECT_EQ(itemsOf(loadText(document(body), options)).size(), 1u) << href;
-        options.resourceRoot = folder_.string();
+        options.resourceRoot = folder_.path().string();
         EXPECT_EQ(itemsOf(loadText(document(body), options)).size(), 1u) << href;
         options.resourceRoot = options.resourceDirectory;
         const Document refused = loadText(document(body), options);
@@ -197,7 +195,7 @@ TEST_F(ImageFiles, StyleSheetsAreLinked) {
     std::ofstream(folder_ / "a.css") << "rect { fill: lime }";
     std::ofstream(folder_ / "p.css") << "rect { fill: red }";
     Options options;
-    options.resourceDirectory = folder_.string();
+    options.resourceDirectory = folder_.path().string();
     const std::string linked =
         "<?xml version='1.0'?><?xml-stylesheet type='text/css' href='a.css'?>"
         "<?xml-stylesheet href=\"p.css\" media='print'?><?xml-stylesheet href='p.css' alternate='yes'?>"

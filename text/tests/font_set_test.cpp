@@ -1,4 +1,5 @@
 #include "text/font_set.hpp"
+#include "tests/test_folder.hpp"
 
 #include <cstdlib>
 #include <fstream>
@@ -95,7 +96,7 @@ TEST(FontSet, SystemFontsStandInForAbsentFamilies) {
 class Fontconfig : public testing::Test {
 protected:
     Fontconfig() {
-        const std::string file = testing::TempDir() + "vtm_fonts.conf";
+        const std::string file = (folder / "fonts.conf").string();
         std::ofstream(file) << R"(<fontconfig><dir>)" << dejavu.string() << R"(</dir>
             <alias binding="same"><family>Typewriter</family><accept><family>DejaVu Sans Mono</family></accept></alias>
             <alias><family>Roman</family><default><family>serif</family></default></alias>
@@ -106,7 +107,7 @@ protected:
             </fontconfig>)";
         setenv("FONTCONFIG_FILE", file.c_str(), 1);
         FontOptions options;
-        options.directories = {testing::TempDir() + "vtm_no_fonts"};  // a library of its own
+        options.directories = {(folder / "no_fonts").string()};  // a library of its own
         options.defaultFamily = "Roman";
         set = std::make_unique<FontSet>(options);
         unsetenv("FONTCONFIG_FILE");
@@ -117,6 +118,7 @@ protected:
         const auto font = set->primary(query);
         return font ? font->family() : "";
     }
+    const TestFolder folder;
     std::unique_ptr<FontSet> set;
 };
 
@@ -142,13 +144,13 @@ TEST_F(Fontconfig, SaysWhatIsLikeAFamilyThatIsNotThere) {
 TEST_F(Fontconfig, ColoredFontsThatStandInAreForEmoji) {
     if (!std::filesystem::exists(suiteFonts()))
         GTEST_SKIP() << suiteFonts() << " of the svg-suite is absent";
-    const std::string file = testing::TempDir() + "vtm_emoji_fonts.conf";
+    const std::string file = (folder / "emoji.conf").string();
     std::ofstream(file) << "<fontconfig><dir>" << dejavu.string() << "</dir><dir>" << suiteFonts().string()
                         << R"(</dir><alias binding="same"><family>Segoe UI Emoji</family>
             <accept><family>CFF Outlines and SBIX</family></accept></alias></fontconfig>)";
     setenv("FONTCONFIG_FILE", file.c_str(), 1);
     FontOptions options;
-    options.directories = {testing::TempDir() + "vtm_no_emoji"};  // a library of its own
+    options.directories = {(folder / "no_emoji").string()};  // a library of its own
     set = std::make_unique<FontSet>(options);
     unsetenv("FONTCONFIG_FILE");
     FontQuery query;

@@ -13,6 +13,7 @@
 #include <VG/vgext.h>
 
 #include "api/openvg/gl/programs.hpp"
+#include "tests/test_folder.hpp"
 
 namespace vtm::openvg::gl {
 namespace {
@@ -49,9 +50,7 @@ std::vector<ProgramKey> everyKey() {
 TEST(GlPrograms, AreGlslEs300ByTheReferenceCompiler) {
     if (std::system("glslangValidator --version > /dev/null 2>&1") != 0)
         GTEST_SKIP() << "glslangValidator is not installed";
-    const fs::path folder = fs::path(testing::TempDir()) / "vtm_openvg_programs";
-    fs::remove_all(folder);
-    fs::create_directories(folder);
+    const TestFolder folder;
     std::set<std::string> written;
     const auto write = [&](const std::string& text, const char* stage) {
         if (written.insert(text).second)
@@ -67,7 +66,6 @@ TEST(GlPrograms, AreGlslEs300ByTheReferenceCompiler) {
     const std::string command = "glslangValidator " + (folder / "*.vert").string() + " " +
                                 (folder / "*.frag").string() + " > " + log + " 2>&1";
     EXPECT_EQ(std::system(command.c_str()), 0) << std::ifstream(log).rdbuf();
-    fs::remove_all(folder);
 }
 
 TEST(GlPrograms, FetchOnlyWhereTheyReadTheTarget) {

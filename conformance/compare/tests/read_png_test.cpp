@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "conformance/compare/compare.hpp"
+#include "tests/test_folder.hpp"
 
 namespace vtm::compare {
 namespace {
@@ -15,7 +16,8 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 
 std::string temporaryPath(const std::string& name) {
-    return (std::filesystem::temp_directory_path() / ("vtm_read_png_" + name)).string();
+    static const TestFolder folder;
+    return (folder / name).string();
 }
 
 /// Writes one row of pixels in the given PNG format.

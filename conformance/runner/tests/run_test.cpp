@@ -8,6 +8,7 @@
 
 #include "conformance/runner/report/report.hpp"
 #include "conformance/runner/suite/suite.hpp"
+#include "tests/test_folder.hpp"
 
 namespace vtm::conformance {
 
@@ -82,13 +83,13 @@ protected:
         bad.outcome.pictures = Pictures{"gl", "first", image::Raster(4, 3), image::Raster(4, 3)};
         rows_ = {good, bad};
     }
-    fs::path folder_ = fs::path(testing::TempDir()) / "vtm-report";
+    const TestFolder folder_;
     std::vector<Row> rows_;
     static constexpr double infinite = std::numeric_limits<double>::infinity();
 };
 
 TEST_F(ReportTest, JsonHasASummaryAndARowACase) {
-    const fs::path file = fs::path(testing::TempDir()) / "rows.json";
+    const fs::path file = folder_ / "rows.json";
     writeJson(file, rows_);
     const auto json = nlohmann::json::parse(readText(file));
     EXPECT_EQ(json["summary"],
@@ -98,7 +99,7 @@ TEST_F(ReportTest, JsonHasASummaryAndARowACase) {
 }
 
 TEST_F(ReportTest, JunitEscapesAndCounts) {
-    const fs::path file = fs::path(testing::TempDir()) / "rows.xml";
+    const fs::path file = folder_ / "rows.xml";
     writeJunit(file, rows_);
     const std::string text = readText(file);
     EXPECT_NE(text.find("<testsuite name=\"b\" tests=\"1\" failures=\"1\""), std::string::npos) << text;
@@ -106,7 +107,7 @@ TEST_F(ReportTest, JunitEscapesAndCounts) {
 }
 
 TEST_F(ReportTest, PageHoldsAllItNeeds) {
-    const Report report(folder_);
+    const Report report(folder_.path());
     report.addPictures(rows_[1]);
     EXPECT_FALSE(rows_[1].outcome.pictures);
     ASSERT_EQ(rows_[1].pictures.size(), 4u);

@@ -1,13 +1,12 @@
 #include <fstream>
 #include <set>
 
-#include <unistd.h>
-
 #include <gtest/gtest.h>
 
 #include "conformance/runner/suite/expectations.hpp"
 #include "conformance/runner/suite/suite.hpp"
 #include "conformance/runner/suite/views.hpp"
+#include "tests/test_folder.hpp"
 
 namespace vtm::conformance {
 
@@ -35,7 +34,6 @@ TEST(Variants, AreProductsOfAxesAndUnionsOfSets) {
 /// A suite of its own in a temporary folder.
 class SuiteFolder : public testing::Test {
 protected:
-    ~SuiteFolder() override { fs::remove_all(folder_.parent_path()); }
     void write(const std::string& name, const std::string& text) {
         fs::create_directories((folder_ / name).parent_path());
         std::ofstream(folder_ / name) << text;
@@ -48,8 +46,8 @@ protected:
         }
         return {};
     }
-    /// Tests run side by side.
-    fs::path folder_ = fs::path(testing::TempDir()) / ("vtm_suite_" + std::to_string(getpid())) / "mine";
+    const TestFolder parent_;
+    const fs::path folder_ = parent_ / "mine";
     const std::string square_ =
         "<!-- A square.\n  No curves. --><svg xmlns=\"http://www.w3.org/2000/svg\" width=\"64\" "
         "height=\"64\"><path id=\"subject\" d=\"M9,9H50V50H9Z\"/></svg>";
@@ -163,10 +161,11 @@ TEST(Matches, Globs) {
 class ExpectationFile : public testing::Test {
 protected:
     std::filesystem::path write(const std::string& text) {
-        const auto file = std::filesystem::path(testing::TempDir()) / "expectations.tsv";
+        const auto file = folder_ / "expectations.tsv";
         std::ofstream(file) << text;
         return file;
     }
+    const TestFolder folder_;
 };
 
 TEST_F(ExpectationFile, HasANameAndAReasonALine) {
