@@ -18,6 +18,8 @@ public:
         count_ = 0;
     }
 
+    std::size_t count() const { return count_; }
+
     /// That of `key`, which the caller sets if it is `unknown`. Valid until the next call.
     std::uint32_t& operator[](std::uint64_t key) {
         if (2 * count_ >= slots_.size())

@@ -20,13 +20,17 @@ constexpr std::size_t slabSteps = 500;
 /// A strip in which sweeping takes more, or more a row, goes on in level steps, and so it does where a slab
 /// would take more and cannot be made thinner (or twice as much, unless it has many short chains, and in the
 /// thinnest slabs all of it takes less); so does one that remembers too many programs.
-constexpr std::size_t mostInStrip = 1u << 23, mostInRow = 1u << 20, mostInSlab = 1u << 23,
+constexpr std::size_t mostInStrip = 1u << 22, mostInRow = 1u << 19, mostInSlab = 1u << 23,
                       mostInThinnest = 1u << 21;
 /// So does one that begins with more chains, of so many layers that some may hide others: a row could look at
 /// them only a few times. Chains of few layers may not cross at all.
 constexpr std::size_t mostAtOnce = 1u << 17, manyLayers = 64;
 /// And one of more than this, if steps in their first row show that it would take too much.
 constexpr std::size_t manyOfOne = 1u << 15;
+/// A region that is not known costs as much as so many steps, and one more for so many layers.
+constexpr std::size_t regionSteps = 8, layersInStep = 4;
+/// So many chains that the state crosses cost as much as a step.
+constexpr std::size_t crossedInStep = 8;
 /// A chord of a program costs as much as so many steps.
 constexpr std::size_t programSteps = 2;
 /// Then the next band is tried again if it has fewer chains than this, or half as many as before; else the
@@ -60,6 +64,8 @@ void BandSweep::run(int band, bool begins, std::vector<asset::Chord>& chords) {
         std::ranges::find_if(chains, [&](std::uint32_t c) { return chains_[c].top >= top; });
     const auto above = std::size_t(firstBelow - chains.begin());
     if (begins) {
+        // What a sweep costs, and so how it goes, must not depend on what the thread has drawn before.
+        state_.forgetRegions();
         onLines_ = 0;
         stripSteps_ = 0;
         stripTop_ = top;
@@ -128,7 +134,7 @@ bool BandSweep::isTangled(float y) {
         return false;
     sorted_.clear();
     for (const Active* a : active_)
-        if (a->drawn[0] != a->drawn[1])
+        if (!state_.isSame(a->drawn[0], a->drawn[1]))
             sorted_.push_back(a->xAt(y + 1));
     return sorted_.size() >= fewTangled && hasMoreInversions(sorted_, merging_, sorted_.size());
 }
@@ -443,13 +449,17 @@ Region BandSweep::regionAfter(std::size_t at, const Region& left, std::uint64_t 
     if (const Region* region = state_.known(member.key))
         return *region;
     crossMembers(at + 1);
-    return state_.region();
+    const std::size_t before = state_.composited();
+    const Region& region = state_.region();
+    stripSteps_ += regionSteps + (state_.composited() - before) / layersInStep;
+    return region;
 }
 
 /// Takes the state to the right of so many members.
 void BandSweep::crossMembers(std::size_t count) {
     moveState(done_.size());
     keepState(count);
+    steps_ += (count - crossedMembers_.size()) / crossedInStep;
     while (crossedMembers_.size() < count) {
         const Active& a = *members_[crossedMembers_.size()];
         state_.cross(a.layer, a.winding);
@@ -459,6 +469,8 @@ void BandSweep::crossMembers(std::size_t count) {
 
 /// Takes the state back to the left of the member with that number.
 void BandSweep::keepState(std::size_t members) {
+    if (crossedMembers_.size() > members)
+        steps_ += (crossedMembers_.size() - members) / crossedInStep;
     for (; crossedMembers_.size() > members; crossedMembers_.pop_back())
         state_.cross(crossedMembers_.back().layer, -crossedMembers_.back().winding);
 }
@@ -468,6 +480,7 @@ void BandSweep::moveState(std::size_t done) {
     if (crossedDone_.size() == done)
         return;
     keepState(0);
+    steps_ += (std::max(crossedDone_.size(), done) - std::min(crossedDone_.size(), done)) / crossedInStep;
     for (; crossedDone_.size() > done; crossedDone_.pop_back())
         state_.cross(crossedDone_.back().layer, -crossedDone_.back().winding);
     while (crossedDone_.size() < done) {
@@ -478,7 +491,7 @@ void BandSweep::moveState(std::size_t done) {
 }
 
 void BandSweep::setSides(Active& active, RegionPaint left, RegionPaint right, float y) {
-    if (active.drawn[0] == left && active.drawn[1] == right)
+    if (state_.isSame(active.drawn[0], left) && state_.isSame(active.drawn[1], right))
         return;
     draw(active, active.from, y);
     active.drawn[0] = left;
@@ -487,7 +500,7 @@ void BandSweep::setSides(Active& active, RegionPaint left, RegionPaint right, fl
 }
 
 void BandSweep::draw(const Active& active, float from, float to) {
-    if (active.drawn[0] == active.drawn[1] || from >= to)
+    if (state_.isSame(active.drawn[0], active.drawn[1]) || from >= to)
         return;
     chords_->push_back({{active.xAt(from), from}, {active.xAt(to), to}, active.drawn[0], active.drawn[1]});
     if (((active.drawn[0] | active.drawn[1]) & programBit) != 0)

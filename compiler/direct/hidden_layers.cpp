@@ -25,7 +25,7 @@ constexpr double fewPixels = 4, fewSquares = 1u << 18;
 /// Where chains meet bands so many times, as many squares for each time; but no more in all.
 constexpr double manyInBands = 1u << 17, squaresOfChain = 8, mostSquares = 1u << 22;
 /// Then layers cover no more, and only ask whether they are hidden.
-constexpr std::size_t mostSquareVisits = 1u << 26;
+constexpr std::size_t mostBlockVisits = 1u << 25;
 
 /// Wider squares are upright: outlines bend among them.
 constexpr float mostLeaningWidth = 1.0f / 4;
@@ -78,7 +78,8 @@ void HiddenLayers::makeSquares(int band, double most) {
         (squareWidth_ < squareHeight_ || squareHeight_ == bandRows ? squareWidth_ : squareHeight_) *= 2;
     columns_ = std::int32_t(float(width_) / squareWidth_) + 1;
     rows_ = std::int32_t(bandRows / squareHeight_);
-    squares_.resize(std::size_t(rows_) * std::size_t(columns_ + 1));
+    if (squares_.size() != std::size_t(rows_) || squares_[0].squares() != columns_)
+        squares_.assign(std::size_t(rows_), CoveredRow(columns_));
     touches_.resize(std::size_t(rows_));
     leanings_.resize(std::size_t(rows_) * std::size_t(columns_ / leaningColumns + 1));
     above_.resize(std::size_t(rows_) * std::size_t(columns_));
@@ -86,9 +87,9 @@ void HiddenLayers::makeSquares(int band, double most) {
 
 void HiddenLayers::lookAt(int band, std::span<const LayerCover> covers) {
     limits::check();
-    for (std::int32_t row = 0; row < rows_; ++row)
-        squaresOf(row).clear();
-    stepsLeft_ = mostSquareVisits / std::size_t(chains_.bands());
+    for (CoveredRow& row : squares_)
+        row.clear();
+    stepsLeft_ = mostBlockVisits / std::size_t(chains_.bands());
     leanSquares(float(band * bandRows));
     for (std::size_t i = 0; i < numbers_.size();) {
         const std::size_t before = i;
@@ -207,7 +208,7 @@ bool HiddenLayers::add(const LayerCover& cover, bool isEvenOdd) {
             continue;
         sortStably(touches.begin(), touches.end(),
                    [](const Touch& a, const Touch& b) { return a.first < b.first; });
-        isShown = squaresOf(row).add(touches, cover, isEvenOdd, stepsLeft_) || isShown;
+        isShown = squares_[std::size_t(row)].add(touches, cover, isEvenOdd, stepsLeft_) || isShown;
     }
     return isShown;
 }

@@ -80,19 +80,14 @@ private:
     std::size_t placeOf(std::uint32_t layer, int band) const {
         return layer * std::size_t(chains_.bands()) + std::size_t(band);
     }
-    CoveredRow squaresOf(std::int32_t row) {
-        const auto count = std::size_t(columns_ + 1);
-        return CoveredRow(std::span(squares_).subspan(std::size_t(row) * count, count));
-    }
-
     const LoweredScene& picture_;
     const ViewChains& chains_;
     const int width_;
     // Of the band.
     float squareWidth_ = 0, squareHeight_ = 0;  ///< in pixels
     std::int32_t columns_ = 0, rows_ = 0;
-    std::vector<CoveredSquare> squares_;
-    std::size_t stepsLeft_ = 0;  ///< of covering
+    std::vector<CoveredRow> squares_;  ///< by row
+    std::size_t stepsLeft_ = 0;        ///< of covering
     std::vector<std::uint32_t> numbers_;
     std::vector<std::uint32_t> at_;            ///< by chain: a vertex that is not below the band
     std::vector<std::vector<Touch>> touches_;  ///< of a layer, by row

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <ranges>
 #include <utility>
 
 #include <vtm/limits/limits.hpp>
@@ -21,11 +23,20 @@ constexpr std::size_t smallCutsInBand = 16 * 100'000;
 constexpr std::size_t endCutsInBand = 16 * 600'000;
 /// A region that is composited in a pixel costs as much as so many chains.
 constexpr double pixelCost = 8;
+/// And a layer that is composited for a region as much as this part of one.
+constexpr double layerCost = 1.0 / 16;
+/// Between chains that are nearer to each other, in columns, nobody asks what shows: where so many crowd, it
+/// is asked at most so many times in a column.
+constexpr float nearChains = 1.0f / 512;
 /// A chain so near to a pixel may be in it.
 constexpr float nearPixel = 1.0f / 64;
 constexpr std::size_t mostSteps = 64, leastSteps = 2;
 /// So many times more steps are taken in a row in which all chains begin or end.
 constexpr double moreForEnds = 16;
+/// Level sides are long if they are, in the mean, one of so many parts of the width.
+constexpr float longSides = 8;
+/// So many times more steps are taken where each is drawn as it is.
+constexpr std::size_t moreByContent = 2;
 /// Contents of parts of a row are equal if their chains are within this many pixels.
 constexpr float sameColumn = 1.0f / 1024;
 /// Chains near those take so many steps instead of one, at most.
@@ -85,7 +96,7 @@ LineSweep::LineSweep(const ViewChains& chains, RegionState& state, PixelColors& 
       sums_(std::size_t(width) + 2),
       shares_(sums_.size()),
       pixelSums_(sums_.size()),
-      squares_(std::size_t((width + 2) * squaresInAPixel + 2)) {}
+      squares_((width + 2) * squaresInAPixel + 1) {}
 
 void LineSweep::run(std::span<const std::uint32_t> numbers, float top, float bottom,
                     std::vector<asset::Chord>& chords) {
@@ -96,6 +107,7 @@ void LineSweep::run(std::span<const std::uint32_t> numbers, float top, float bot
         row(top, end);
         top = end;
     }
+    state_.preferDeep(false);
 }
 
 bool LineSweep::isTangled(std::span<const std::uint32_t> numbers, float top) {
@@ -123,23 +135,33 @@ void LineSweep::begin(std::span<const std::uint32_t> numbers) {
     toCome_ = numbers;
     smallInBand_ = smallCutsInBand;
     costOfCut_ = 1;
-    isMeasured_ = !state_.hasPrograms();
+    isMeasured_ = isOneColor_;
     isJudged_ = isTangled_ = false;
     rowsShown_ = 0;
     endCuts_ = endCutsInBand;
 }
 
-/// What a chain costs with the pixels that a step of the row asks for.
+/// What a chain costs with the pixels that a step of the row asks for, and the layers that it composites.
 void LineSweep::measure(float top, float bottom) {
     isMeasured_ = true;
-    pixelsAsked_ = 0;
-    smallSteps_ = 0;
+    pixelsAsked_ = regionsAsked_ = 0;
+    smallSteps_ = endCutsInStep_ = 0;
+    const std::size_t before = state_.composited();
     drawn_ = top;
+    // What is hidden in parts of the row is not hidden in all of it.
+    const bool hides = hides_;
+    const int rowsShown = rowsShown_;
     draw({top, bottom, bottom - top});
+    hides_ = hides;
+    rowsShown_ = rowsShown;
     std::ranges::fill(sums_, glm::vec4(0));
     std::ranges::fill(pixelSums_, glm::vec4(0));
-    costOfCut_ += pixelCost * double(pixelsAsked_) / double(cuts_.size() + 1);
-    smallInBand_ = std::size_t(double(smallCutsInBand) / costOfCut_);
+    const std::size_t composited = state_.composited() - before;
+    costOfCut_ +=
+        (pixelCost * double(pixelsAsked_) + layerCost * double(composited)) / double(cuts_.size() + 1);
+    state_.preferDeep(state_.isDeep(composited / (regionsAsked_ + 1)));
+    if (isInPixels_)
+        smallInBand_ = std::size_t(double(smallCutsInBand) / costOfCut_);
 }
 
 /// Of the only layer, which the chain is of.
@@ -161,11 +183,10 @@ void LineSweep::row(float top, float bottom) {
     rowsShown_ = std::max(rowsShown_ - 1, 0);
     remembers_ = state_.hasPrograms() && !state_.remembersMuch();
     isInPixels_ = state_.hasPrograms() && !remembers_;
-    if (isInPixels_) {
+    if (isInPixels_)
         findLayersOfPixels(top, bottom);
-        if (!isMeasured_)
-            measure(top, bottom);
-    }
+    if (!isMeasured_ && (isInPixels_ || (!remembers_ && cuts_.size() >= manyCuts)))
+        measure(top, bottom);
     const bool isByContent = findSteps(top, bottom);
     // A step may take several times its share of what the band may.
     auto stepsLeft = std::size_t(asset::bandRows - std::fmod(top, float(asset::bandRows))) * steps_.size();
@@ -205,9 +226,28 @@ bool LineSweep::findSteps(float top, float bottom) {
     steps_.clear();
     if (placeByContent(top, bottom, count))
         return true;
-    const float height = (bottom - top) / float(count);
-    for (std::size_t i = 0; i < count; ++i)
-        steps_.push_back({top + float(i) * height, top + float(i + 1) * height, height});
+    const auto placeBetween = [&](float from, float to, std::size_t steps) {
+        const float height = (to - from) / float(steps);
+        for (std::size_t i = 0; i < steps; ++i)
+            steps_.push_back({from + float(i) * height, from + float(i + 1) * height, height});
+    };
+    const bool areFew = pieces_.size() <= moreByContent * count;
+    if (levelSides_.length * longSides < float(pieces_.size()) * float(width_) ||
+        (!areFew && mayDrawEnds() &&
+         pieces_.size() * chainsAmongSides({top, bottom, bottom - top}) <= endCutsInBand / asset::bandRows)) {
+        placeBetween(top, bottom, count);
+        return false;
+    }
+    // No long level side lies within a step.
+    if (!areFew) {
+        placeByMostContents(top, count);
+        return true;
+    }
+    std::ranges::sort(pieces_, {}, &Piece::top);
+    for (const Piece& piece : pieces_) {
+        const float share = (piece.bottom - piece.top) / (bottom - top);
+        placeBetween(piece.top, piece.bottom, std::max<std::size_t>(std::size_t(share * float(count)), 1));
+    }
     return false;
 }
 
@@ -216,6 +256,17 @@ void LineSweep::findPieces(float top, float bottom) {
     contentChanges_.clear();
     pieces_.clear();
     std::uint64_t content = 0;
+    levelSides_ = {};
+    // A chain that begins or ends with a level side has that of the layer.
+    const auto addSide = [&](glm::vec2 a, glm::vec2 b) {
+        if (a.y != b.y)
+            return;
+        const auto most = float(width_);
+        const auto [left, right] = std::minmax(std::clamp(a.x, 0.0f, most), std::clamp(b.x, 0.0f, most));
+        levelSides_.length += right - left;
+        levelSides_.left = std::min(levelSides_.left, left);
+        levelSides_.right = std::max(levelSides_.right, right);
+    };
     for (const Cut& cut : cuts_) {
         if (cut.spans({top, bottom, bottom - top}))
             continue;
@@ -226,12 +277,16 @@ void LineSweep::findPieces(float top, float bottom) {
         const auto column = std::int64_t(cut.a.x / sameColumn);
         const std::uint64_t own = hashValue(hashValue(cut.layer) + std::uint64_t(std::int64_t(cut.winding)) +
                                             hashValue(std::uint64_t(column)));
-        if (begins)
+        if (begins) {
             contentChanges_.push_back({cut.a.y, own});
-        else
+            addSide(vertices_[cut.at], vertices_[cut.at + 1]);
+        } else {
             content += own;
-        if (end < bottom)
+        }
+        if (end < bottom) {
             contentChanges_.push_back({end, 0 - own});
+            addSide(vertices_[cut.last - 1], vertices_[cut.last]);
+        }
     }
     std::ranges::sort(contentChanges_, {}, &ContentChange::y);
     for (std::size_t i = 0; i <= contentChanges_.size(); ++i) {
@@ -245,6 +300,18 @@ void LineSweep::findPieces(float top, float bottom) {
     }
 }
 
+/// So many chains that may show lie in the columns of the row's level sides.
+std::size_t LineSweep::chainsAmongSides(const Step& row) {
+    if (hides_)
+        lookForShown(row);
+    else
+        lookAtAll(row);
+    order_.clear();
+    return std::size_t(std::ranges::count_if(seen_, [&](const Seen& seen) {
+        return seen.right >= levelSides_.left && seen.left <= levelSides_.right;
+    }));
+}
+
 /// Pieces with the same content share steps. False if contents are too many, or too few are the same.
 bool LineSweep::placeByContent(float top, float bottom, std::size_t most) {
     std::ranges::sort(pieces_, [](const Piece& a, const Piece& b) {
@@ -253,9 +320,9 @@ bool LineSweep::placeByContent(float top, float bottom, std::size_t most) {
     std::size_t contents = 1;
     for (std::size_t i = 1; i < pieces_.size(); ++i)
         contents += pieces_[i].content != pieces_[i - 1].content;
-    if (contents > most || 2 * contents > pieces_.size())
+    if (contents > moreByContent * most || 2 * contents > pieces_.size())
         return false;
-    const float part = (bottom - top) / float(most / contents);
+    const float part = (bottom - top) / float(std::max<std::size_t>(most / contents, 1));
     for (std::size_t i = 0, end = 0; i < pieces_.size(); i = end) {
         const float to = top + part * (std::floor((pieces_[i].top - top) / part) + 1);
         float height = 0, moment = 0;
@@ -276,6 +343,41 @@ bool LineSweep::placeByContent(float top, float bottom, std::size_t most) {
     }
     std::ranges::sort(steps_, {}, &Step::top);
     return true;
+}
+
+/// The contents that fill most of the row have steps of their own, as many as `most`; of the others as many
+/// stand for those near them. Pieces are sorted by content.
+void LineSweep::placeByMostContents(float top, std::size_t most) {
+    std::vector<Step> contents;
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+        const Piece& piece = pieces_[i];
+        const float height = piece.bottom - piece.top;
+        if (i == 0 || piece.content != pieces_[i - 1].content) {
+            contents.push_back({piece.top, piece.bottom, height});
+            continue;
+        }
+        Step& step = contents.back();
+        step.height += height;
+        if (height > step.bottom - step.top)
+            step = {piece.top, piece.bottom, step.height};
+    }
+    std::ranges::stable_sort(contents, std::greater(), &Step::height);
+    const auto own = std::ptrdiff_t(std::min(most, contents.size()));
+    steps_.assign(contents.begin(), contents.begin() + own);
+    const std::span others = std::span(contents).subspan(std::size_t(own));
+    std::ranges::sort(others, {}, &Step::top);
+    const std::size_t parts = std::min(most, others.size());
+    const double ahead = std::fmod(double(top) * std::numbers::phi, 1.0);
+    for (std::size_t k = 0; k < parts; ++k) {
+        const std::span part =
+            others.first((k + 1) * others.size() / parts).subspan(k * others.size() / parts);
+        Step step = part[std::size_t(ahead * double(part.size()))];
+        step.height = 0;
+        for (const Step& other : part)
+            step.height += other.height;
+        steps_.push_back(step);
+    }
+    std::ranges::sort(steps_, {}, &Step::top);
 }
 
 // ---- Chains ---------------------------------------------------------------------------------------
@@ -400,7 +502,7 @@ void LineSweep::lookAtAll(const Step& step) {
 /// Those of layers that are not hidden.
 void LineSweep::lookForShown(const Step& step) {
     seen_.clear();
-    CoveredRow(squares_).clear();
+    squares_.clear();
     for (std::size_t i = 0; i < cuts_.size();) {
         const std::size_t before = seen_.size();
         for (const std::uint32_t layer = cuts_[i].layer; i < cuts_.size() && cuts_[i].layer == layer; ++i) {
@@ -423,7 +525,7 @@ bool LineSweep::isShown(std::span<const Seen> ofLayer) {
         return true;
     const auto square = [&](float x) {
         return std::clamp(std::int32_t((x + ViewChains::beside) * squaresInAPixel), 0,
-                          std::int32_t(squares_.size()) - 2);
+                          squares_.squares() - 1);
     };
     touches_.clear();
     for (const Seen& seen : ofLayer) {
@@ -435,8 +537,8 @@ bool LineSweep::isShown(std::span<const Seen> ofLayer) {
     }
     sortStably(touches_.begin(), touches_.end(),
                [](const Touch& a, const Touch& b) { return a.first < b.first; });
-    std::size_t steps = squares_.size();
-    return CoveredRow(squares_).add(touches_, cover, state_.isEvenOdd(layer), steps);
+    auto steps = std::size_t(squares_.squares());
+    return squares_.add(touches_, cover, state_.isEvenOdd(layer), steps);
 }
 
 // ---- Drawing --------------------------------------------------------------------------------------
@@ -484,7 +586,7 @@ void LineSweep::draw(const Step& step) {
         return;
     winding_ = 0;
     endedColumns_.clear();
-    if (hasSpecial_ && !isOneColor_ && !state_.hasPrograms())
+    if (hasSpecial_ && mayDrawEnds())
         findEndedColumns(step);
     if (endedColumns_.empty()) {
         drawChains(step);
@@ -538,8 +640,12 @@ void LineSweep::drawByParts(const Step& step) {
     }
 }
 
-/// From left to right.
-void LineSweep::sortPart() {
+/// From left to right; from step to step they are nearly in order.
+void LineSweep::lookAtPart(const Step& step) {
+    for (Placed& p : partOrder_) {
+        look(part_[p.number].cut, step, part_[p.number]);
+        p.x = part_[p.number].x;
+    }
     sortPlaces(partOrder_, spare_);
     arrange(part_, partOrder_, partSorted_);
 }
@@ -562,10 +668,7 @@ void LineSweep::drawInSteps(std::span<const Seen> chains, const Step& step, Show
         return;
     }
     smallSteps_ -= chains.size() * std::size_t(count);
-    part_.assign(chains.begin(), chains.end());
-    partOrder_.clear();
-    for (const Seen& seen : part_)
-        partOrder_.push_back({seen.x, std::uint32_t(partOrder_.size())});
+    takePart(chains | std::views::transform(&Seen::cut));
     const float height = (step.bottom - step.top) / float(count);
     Shown right;
     const std::int32_t windingLeft = winding_;
@@ -573,11 +676,7 @@ void LineSweep::drawInSteps(std::span<const Seen> chains, const Step& step, Show
         winding_ = windingLeft;
         const Step small{step.top + float(i) * height, step.top + float(i + 1) * height,
                          step.height / float(count)};
-        for (Placed& p : partOrder_) {
-            look(part_[p.number].cut, small, part_[p.number]);
-            p.x = part_[p.number].x;
-        }
-        sortPart();
+        lookAtPart(small);
         right = cross(partSorted_, small, left, begin, end);
         if (i + 1 < count && !isOneColor_)
             for (const Seen& seen : part_)
@@ -589,8 +688,8 @@ void LineSweep::drawInSteps(std::span<const Seen> chains, const Step& step, Show
 
 /// From left to right through the chains at the middle of a step, all of which lie between `begin` and `end`,
 /// as does what is drawn of programs. Returns the region on their right.
-LineSweep::Shown LineSweep::cross(std::span<const Seen> chains, const Step& step, Shown left, float begin,
-                                  float end) {
+LineSweep::Shown LineSweep::cross(std::span<const Seen> chains, const Step& step, const Shown& left,
+                                  float begin, float end) {
     if (isOneColor_) {
         addOutline(chains, step.height, shares_);
         return {};
@@ -599,42 +698,60 @@ LineSweep::Shown LineSweep::cross(std::span<const Seen> chains, const Step& step
         crossInPixels(chains, step, begin, end);
         return {};
     }
-    // Of two chains next to each other the second often leads back.
-    Shown before;
-    std::uint64_t keyBefore = 0, key = state_.key();
-    bool isKnown = false;
-    PaintChange last;
-    const auto change = [&](const Seen& seen, const Shown& from, const Shown& to) {
-        PaintChange next{{&seen, seen.isBent()}, from, to};
-        if (last.seen) {
-            const bool crosses = last.crosses(seen);
-            next.isUpright = next.isUpright || crosses;
-            last.isUpright = last.isUpright || crosses;
-            add(last, step);
+    // Of two chains next to each other the second often leads back. Nothing is copied: what was just written
+    // is slow to read at once.
+    std::array<Shown, 3> shown{left};
+    Shown *here = &shown[0], *before = &shown[1], *spare = &shown[2];
+    std::uint64_t keyHere = state_.key(), keyBefore = keyHere;
+    bool isHere = true;  // what was asked for last is what shows
+    const Seen *asked = nullptr, *crossed = nullptr;
+    const auto isNear = [&](const Seen& seen) {
+        return asked && seen.x - asked->x < nearChains && std::abs(seen.from - asked->from) < nearChains &&
+               std::abs(seen.to - asked->to) < nearChains;
+    };
+    std::array<PaintChange, 2> changes;
+    PaintChange *next = &changes[0], *last = &changes[1];
+    const auto ask = [&](const Seen& seen) {
+        isHere = true;
+        asked = &seen;
+        if (state_.key() == keyHere)
+            return;
+        if (state_.key() != keyBefore) {
+            lookHere(*spare);
+            std::swap(before, spare);
+            keyBefore = state_.key();
         }
-        last = next;
+        std::swap(here, before);
+        std::swap(keyHere, keyBefore);
+        if (here->showsAs(*before))
+            return;
+        next->seen = &seen;
+        next->isUpright = seen.isBent();
+        next->left = before->region.paint;
+        next->right = here->region.paint;
+        next->color = here->color - before->color;
+        if (last->seen) {
+            const bool crosses = last->crosses(seen);
+            next->isUpright = next->isUpright || crosses;
+            last->isUpright = last->isUpright || crosses;
+            add(*last, step);
+        }
+        std::swap(next, last);
     };
     for (const Seen& seen : chains) {
         if (!seen.isAtMiddle)
             continue;
+        if (!isHere && !isNear(seen))
+            ask(*crossed);
         state_.cross(seen.layer, seen.winding);
-        const std::uint64_t keyLeft = std::exchange(key, state_.key());
-        if (key == keyLeft)
-            continue;
-        if (state_.isHidden(seen.layer, left.region)) {
-            isKnown = false;
-            continue;
-        }
-        const Shown right = isKnown && key == keyBefore ? before : regionHere();
-        if (!right.showsAs(left))
-            change(seen, left, right);
-        before = std::exchange(left, right);
-        keyBefore = keyLeft;
-        isKnown = true;
+        isHere = isHere && (state_.key() == keyHere || state_.isHidden(seen.layer, here->region));
+        crossed = &seen;
     }
-    if (last.seen)
-        add(last, step);
-    return left;
+    if (!isHere)
+        ask(*crossed);
+    if (last->seen)
+        add(*last, step);
+    return *here;
 }
 
 /// The same where paints are composited in each pixel.
@@ -713,16 +830,14 @@ void LineSweep::findLayersOfPixels(float top, float bottom) {
     }
 }
 
-LineSweep::Shown LineSweep::regionHere() {
-    Shown shown;
+void LineSweep::lookHere(Shown& shown) {
+    ++regionsAsked_;
     if (!remembers_) {
         shown.region = state_.regionOfPixels(shown.color);
-        return shown;
+        return;
     }
     shown.region = state_.region();
-    if (!shown.isProgram())
-        shown.color = state_.colors()[std::exchange(shown.region.paint, 0)];
-    return shown;
+    shown.color = shown.isProgram() ? glm::vec4(0) : state_.colors()[std::exchange(shown.region.paint, 0)];
 }
 
 /// Of one layer, whose inside is a colour. Calls take(seen, whether another crosses it in the step, whether
@@ -823,12 +938,9 @@ void LineSweep::addLine(std::int16_t* places, float height) {
 
 void LineSweep::add(const PaintChange& change, const Step& step) {
     const Edge edge = change.edge();
-    if (change.left.isProgram() || change.right.isProgram())
-        chords_->push_back({{edge.from, drawn_},
-                            {edge.to, drawn_ + step.height},
-                            change.left.region.paint,
-                            change.right.region.paint});
-    addAlong(sums_, edge.from, edge.to, step.height * (change.right.color - change.left.color));
+    if (((change.left | change.right) & programBit) != 0)
+        chords_->push_back({{edge.from, drawn_}, {edge.to, drawn_ + step.height}, change.left, change.right});
+    addAlong(sums_, edge.from, edge.to, step.height * change.color);
 }
 
 /// What lies between two edges, column by column.

@@ -101,6 +101,12 @@ private:
         std::uint64_t content;  ///< is added
     };
 
+    /// With which chains begin and end: how long they are in all, and the columns that they lie in.
+    struct LevelSides {
+        float length = 0;
+        float left = INFINITY, right = -INFINITY;
+    };
+
     /// Where an edge enters and leaves a step.
     struct Edge {
         float from, to;
@@ -126,7 +132,8 @@ private:
     };
     /// And the paint.
     struct PaintChange : Change {
-        Shown left, right;
+        RegionPaint left = 0, right = 0;
+        glm::vec4 color{0};  ///< that on the right less that on the left
     };
 
     /// A chain that begins or ends in a step, and the columns that it reaches there.
@@ -158,7 +165,9 @@ private:
     void row(float top, float bottom);
     bool findSteps(float top, float bottom);
     void findPieces(float top, float bottom);
+    std::size_t chainsAmongSides(const Step& row);
     bool placeByContent(float top, float bottom, std::size_t most);
+    void placeByMostContents(float top, std::size_t most);
     void take(float top, float bottom);
     void look(std::size_t number, const Step& step, Seen& seen);
     void findEdge(Cut& cut, float y) const;
@@ -173,20 +182,24 @@ private:
     void lookAndSort(const Step& step);
     void draw(const Step& step);
     void drawByParts(const Step& step);
-    void sortPart();
+    template <class Numbers>
+    void takePart(const Numbers& numbers);
+    void lookAtPart(const Step& step);
     void drawInSteps(std::span<const Seen> chains, const Step& step, Shown& left, float begin, float end);
-    Shown cross(std::span<const Seen> chains, const Step& step, Shown left, float begin, float end);
+    Shown cross(std::span<const Seen> chains, const Step& step, const Shown& left, float begin, float end);
     void drawChains(const Step& step);
     void findEndedColumns(const Step& step);
     void sortToEndedColumns();
     void findHeights(std::span<const std::uint32_t> members, const Step& step);
     void thinHeights(std::size_t most);
+    /// Columns of colours only.
+    bool mayDrawEnds() const { return !isOneColor_ && !state_.hasPrograms(); }
     void drawEndedColumns(const Step& step);
     void leaveOutEndedColumns(std::span<const glm::vec4> changes);
     glm::vec4 drawFromEndToEnd(const EndedColumns& columns, const Step& step);
     void crossInPixels(std::span<const Seen> chains, const Step& step, float begin, float end);
     void findLayersOfPixels(float top, float bottom);
-    Shown regionHere();
+    void lookHere(Shown& shown);
     void measure(float top, float bottom);
     template <class Take>
     void crossOutline(std::span<const Seen> chains, const Take& take);
@@ -227,6 +240,7 @@ private:
     std::span<const std::uint32_t> toCome_;  ///< from the top
     std::vector<Step> steps_;
     std::vector<ContentChange> contentChanges_;
+    LevelSides levelSides_;  ///< of the row
     std::vector<Piece> pieces_;
     std::vector<Seen> part_;  ///< some chains, in thinner steps
     std::vector<Placed> partOrder_;
@@ -239,7 +253,7 @@ private:
     bool isInPixels_ = false;  ///< or paints are composited in each pixel
     double costOfCut_ = 1;     ///< then, in the band
     bool isMeasured_ = false;  ///< that is known
-    std::size_t pixelsAsked_ = 0;
+    std::size_t pixelsAsked_ = 0, regionsAsked_ = 0;
     std::vector<Change> changes_;
     std::vector<glm::vec4> pixelSums_;  ///< by column: what regions show there, times height
     std::int32_t winding_ = 0;          ///< of one layer
@@ -266,7 +280,7 @@ private:
     // Which layers show.
     bool hides_ = false;  ///< in the row
     int rowsShown_ = 0;   ///< in so many rows to come nobody looks
-    std::vector<CoveredSquare> squares_;
+    CoveredRow squares_;
     std::vector<Touch> touches_;
 };
 
@@ -286,6 +300,17 @@ inline void LineSweep::look(std::size_t number, const Step& step, Seen& seen) {
     seen.hasEnd = false;
     seen.isSpecial = seen.right - seen.left > mostReach;
     hasSpecial_ = hasSpecial_ || seen.isSpecial;
+}
+
+/// Takes chains of cuts_, whose numbers are given.
+template <class Numbers>
+void LineSweep::takePart(const Numbers& numbers) {
+    part_.clear();
+    partOrder_.clear();
+    for (const std::uint32_t number : numbers) {
+        partOrder_.push_back({0, std::uint32_t(part_.size())});
+        part_.emplace_back().cut = number;
+    }
 }
 
 }  // namespace vtm::compiler

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <utility>
 
 #include <vtm/limits/limits.hpp>
@@ -157,24 +158,17 @@ glm::vec4 LineSweep::drawFromEndToEnd(const EndedColumns& columns, const Step& s
     }
     fine_.resize(sums_.size(), glm::vec4(0));
     sums_.swap(fine_);
-    const Shown left = regionHere();
+    Shown left;
+    lookHere(left);
     const float scale = step.height / (step.bottom - step.top);
+    takePart(columns.members | std::views::transform([&](std::uint32_t i) { return sorted_[i].cut; }));
     for (std::size_t k = 0; k + 1 < heights_.size(); ++k) {
         const Step part{heights_[k], heights_[k + 1], scale * (heights_[k + 1] - heights_[k])};
-        part_.clear();
-        partOrder_.clear();
-        for (const std::uint32_t i : columns.members) {
-            Seen seen;
-            look(sorted_[i].cut, part, seen);
-            if (!seen.isAtMiddle)
-                continue;
-            partOrder_.push_back({seen.x, std::uint32_t(part_.size())});
-            part_.push_back(seen);
-        }
-        sortPart();
+        lookAtPart(part);
         cross(partSorted_, part, left, -INFINITY, INFINITY);
         for (const Seen& seen : part_)
-            state_.cross(seen.layer, -seen.winding);
+            if (seen.isAtMiddle)
+                state_.cross(seen.layer, -seen.winding);
     }
     sums_.swap(fine_);
     glm::vec4 onLeft = step.height * left.color;

@@ -93,17 +93,10 @@ void LineSweep::drawInThinSteps(const LevelColumns& columns, std::size_t first, 
     const float height = (bottom - top) / float(steps);
     levelChanges_.assign(shares_.size(), 0);
     float share = (columns.winding & mask) != 0 ? bottom - top : 0;
+    takePart(columns.members);
     for (std::size_t k = 0; k < steps; ++k) {
         const Step step{top + float(k) * height, top + float(k + 1) * height, height};
-        part_.clear();
-        partOrder_.clear();
-        for (const std::uint32_t i : columns.members) {
-            Seen seen;
-            look(i, step, seen);
-            partOrder_.push_back({seen.x, std::uint32_t(part_.size())});
-            part_.push_back(seen);
-        }
-        sortPart();
+        lookAtPart(step);
         winding_ = columns.winding;
         addOutline(partSorted_, height, levelChanges_);
     }

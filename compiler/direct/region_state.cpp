@@ -47,6 +47,7 @@ RegionState::RegionState(const LoweredScene& picture)
         shade.isColor = source.op == asset::Op::Solid;
         shade.kind = isLaidOver[item.group] && shade.isColor ? Shade::Solid : Shade::Other;
         hasPrograms_ = hasPrograms_ || shade.kind == Shade::Other;
+        hasClips_ = hasClips_ || isClipped[item.group] != 0;
         shade.isLaidOver = isLaidOver[item.group] != 0;
         shade.isClipped = isClipped[item.group] != 0;
         shade.group = translucent_[item.group];
@@ -58,8 +59,7 @@ RegionState::RegionState(const LoweredScene& picture)
 }
 
 void RegionState::forgetPaints() {
-    known_.clear();
-    regions_.clear();
+    forgetRegions();
     colorNumbers_.clear();
     colors_.clear();
     programs_.clear();
@@ -114,18 +114,75 @@ Region RegionState::compute() {
     return region;
 }
 
-/// The usual case: all that shows is solid colours in groups that are laid over each other.
+/// The usual case: all that shows is solid colours, laid over each other. False if it is not. Whether a stack
+/// is deep depends on what lies above the layers that it hides, as its colour does.
 bool RegionState::stackSolids(glm::vec4& color, Region& region) {
-    open_.assign(1, {noIndex});
-    bool isSolid = true;
+    if (prefersTree_) {
+        stackInTree(color, region);
+        return true;
+    }
+    bool isSolid = true, isInGroup = false, isDeep = false;
+    glm::vec4 sum(0);
+    float light = 1;
+    std::size_t looked = 0;
     forEachFromTop([&](std::uint32_t layer) {
         const Shade& shade = shades_[layer];
-        if (shade.kind == Shade::None)
-            return true;
-        if (isClippedAway(layer))
+        if (shade.kind == Shade::None || isClippedAway(layer))
             return true;
         isSolid = shade.kind == Shade::Solid;
-        if (!isSolid)
+        isInGroup = shade.group != noIndex;
+        isDeep = ++looked > shallow && mayBeInTree();
+        if (!isSolid || isInGroup || isDeep)
+            return false;
+        sum += light * shade.color;
+        light *= 1 - shade.color.w;
+        if (light > unseen)
+            return true;
+        region.hidden = layer;
+        region.isOpaque = shade.color.w >= 1;
+        return false;
+    });
+    composited_ += looked;
+    if (isDeep)
+        stackInTree(color, region);
+    else if (isInGroup && isSolid)
+        return stackInGroups(color, region);
+    else
+        color = sum;
+    return isSolid;
+}
+
+void RegionState::stackInTree(glm::vec4& color, Region& region) {
+    if (!tree_) {
+        std::vector<glm::vec4> colors;
+        std::vector<std::uint32_t> groups;
+        for (const Shade& shade : shades_) {
+            colors.push_back(shade.color);
+            groups.push_back(shade.group);
+        }
+        tree_.emplace(picture_, std::move(colors), groups, translucent_);
+    }
+    composited_ += layersOfTree;
+    const StackColor stack = tree_->color(inside_);
+    color = stack.color;
+    region.hidden = stack.hidden;
+    const Shade& last = shades_[stack.hidden];
+    region.isOpaque = stack.hidden > 0 && last.group == noIndex && last.color.w >= 1;
+}
+
+/// The same in translucent groups.
+bool RegionState::stackInGroups(glm::vec4& color, Region& region) {
+    open_.assign(1, {noIndex});
+    bool isSolid = true, isDeep = false;
+    std::size_t looked = 0;
+    forEachFromTop([&](std::uint32_t layer) {
+        const Shade& shade = shades_[layer];
+        if (shade.kind == Shade::None || isClippedAway(layer))
+            return true;
+        isSolid = shade.kind == Shade::Solid;
+        looked += layersOfGrouped;
+        isDeep = looked > shallow && mayBeInTree();
+        if (!isSolid || isDeep)
             return false;
         if (shade.group != open_.back().group) {
             closeDownTo(shade.group);
@@ -142,6 +199,11 @@ bool RegionState::stackSolids(glm::vec4& color, Region& region) {
         region.isOpaque = open_.size() == 1 && shade.color.w >= 1;
         return false;
     });
+    composited_ += looked;
+    if (isDeep) {
+        stackInTree(color, region);
+        return true;
+    }
     closeDownTo(noIndex);
     color = open_.front().color;
     return isSolid;
@@ -175,6 +237,10 @@ void RegionState::openUpTo(std::uint32_t group) {
 }
 
 RegionPaint RegionState::colorNumber(const glm::vec4& color) {
+    if (colorNumbers_.count() >= manyColors) {
+        colors_.push_back(color);
+        return RegionPaint(colors_.size() - 1);
+    }
     RegionPaint& number = colorNumbers_[hashOf(color + 0.0f)];  // -0 is 0
     if (number == NumberMap::unknown) {
         number = RegionPaint(colors_.size());

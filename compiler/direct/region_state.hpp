@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,7 @@
 
 #include "compiler/containers/number_map.hpp"
 #include "compiler/direct/layer_cover.hpp"
+#include "compiler/direct/stack_tree.hpp"
 #include "compiler/lower/lowered_scene.hpp"
 #include "compiler/paint/palette.hpp"
 
@@ -42,6 +44,14 @@ public:
             toggle(layer, s.name);
     }
 
+    /// Layers that were composited to find regions' colours, in all; those of a group, and deep stacks, count
+    /// as several.
+    std::size_t composited() const { return composited_; }
+    /// Whether a stack of so many layers is deep.
+    static bool isDeep(std::size_t layers) { return layers > shallow; }
+    /// All stacks that come are taken to be deep.
+    void preferDeep(bool prefers) { prefersTree_ = prefers && mayBeInTree(); }
+
     /// Stands for the set of layers that are inside.
     std::uint64_t key() const { return key_; }
     /// What becomes of a key where a layer's winding number changes from `winding` by `change`.
@@ -59,12 +69,15 @@ public:
         }
         return regions_[number];
     }
-    /// Where very many are known, none is from now on: the paints stay.
-    void forgetManyRegions() {
-        if (regions_.size() < manyRegions || hasPrograms_)
-            return;
+    /// None is known from now on: the paints stay.
+    void forgetRegions() {
         known_.clear();
         regions_.clear();
+    }
+    /// The same where very many are known.
+    void forgetManyRegions() {
+        if (regions_.size() >= manyRegions && !hasPrograms_)
+            forgetRegions();
     }
     /// The same of a region of a few pixels, whose colour is set and not remembered. Not if there are
     /// programs.
@@ -91,8 +104,11 @@ public:
     /// Whether a layer is only where its winding number is odd.
     bool isEvenOdd(std::uint32_t layer) const { return layers_[layer].mask == 1; }
 
-    /// Premultiplied; the first is transparent.
+    /// Premultiplied; the first is transparent. A colour may have several numbers.
     std::span<const glm::vec4> colors() const { return colors_; }
+    bool isSame(RegionPaint a, RegionPaint b) const {
+        return a == b || (((a | b) & programBit) == 0 && colors_[a] == colors_[b]);
+    }
     std::span<const PaintProgram> programs() const { return programs_; }
     /// Whether paints may be programs.
     bool hasPrograms() const { return hasPrograms_; }
@@ -104,7 +120,15 @@ public:
     void forgetPaints();
 
 private:
-    static constexpr std::size_t mostProgramSteps = 1u << 18, manyRegions = 1u << 20;
+    static constexpr std::size_t mostProgramSteps = 1u << 18;
+    /// So many layers are composited one by one.
+    static constexpr std::size_t shallow = 96;
+    /// A layer of a group takes as long as so many others, and so does a deep stack, in the mean.
+    static constexpr std::size_t layersOfGrouped = 4, layersOfTree = 64;
+    /// So many are looked up in a processor's cache.
+    static constexpr std::size_t manyRegions = 1u << 14;
+    /// Of more colours, none is looked for among those before.
+    static constexpr std::size_t manyColors = 1u << 14;
 
     struct LayerState {
         std::int32_t winding = 0;
@@ -139,6 +163,8 @@ private:
         inside_[layer / 64] ^= std::uint64_t{1} << layer % 64;
         filled_[layer / 4096] = (filled_[layer / 4096] & ~(std::uint64_t{1} << layer / 64 % 64)) |
                                 std::uint64_t{inside_[layer / 64] != 0} << layer / 64 % 64;
+        if (tree_)
+            tree_->change(layer);
     }
     template <class Visit>
     void forEachFromTop(Visit&& visit) const;
@@ -146,6 +172,10 @@ private:
     bool isInside(std::uint32_t layer) const { return (inside_[layer / 64] >> layer % 64 & 1) != 0; }
     Region compute();
     bool stackSolids(glm::vec4& color, Region& region);
+    bool stackInGroups(glm::vec4& color, Region& region);
+    /// Whether nothing but solid colours shows, and all of each layer.
+    bool mayBeInTree() const { return !hasPrograms_ && !hasClips_; }
+    void stackInTree(glm::vec4& color, Region& region);
     void closeDownTo(std::uint32_t group);
     void openUpTo(std::uint32_t group);
     RegionPaint colorNumber(const glm::vec4& color);
@@ -170,6 +200,10 @@ private:
     std::vector<RegionPaint> ofPalette_;  ///< by paint of the palette
     std::vector<std::uint32_t> list_;     ///< items
     bool hasPrograms_ = false;
+    std::size_t composited_ = 0;
+    bool prefersTree_ = false;
+    bool hasClips_ = false;          ///< or masks
+    std::optional<StackTree> tree_;  ///< none until a stack is deep
 };
 
 }  // namespace vtm::compiler

@@ -50,25 +50,27 @@ asset::View viewOf(const scene::Scene& scene, const Looked& looked) {
     return {width, height, {c, s, -s, c, 0.5 * width - at.x, 0.5 * height - at.y}};
 }
 
-/// Scenes that are compiled in any case, and those whose compiled picture is not proven, say nothing.
-void compareDrawings(const scene::Scene& scene, const std::string& name) {
+/// Scenes that are compiled in any case, and those whose compiled picture is not proven, say nothing: then
+/// false.
+bool compareDrawings(const scene::Scene& scene, const std::string& name) {
     // Nearer to the true picture than usual, since chords of assets all lie on one side of their curves.
     compiler::Options options;
     options.tolerance /= 4;
     const compiler::Result compiled = compiler::compile(scene, options);
     if (!compiled.unproven.empty() || compiled.asset.fallbackLeaves > 0 ||
         !asset::isSumOfMaps(compiled.asset))
-        return;
+        return false;
     const asset::Scanner scanner(compiled.asset);
     for (const Looked& looked : views) {
         const asset::View view = viewOf(scene, looked);
         const auto drawing = compiler::ViewDrawing::make(scene, view);
         if (!drawing)
-            return;
+            return false;
         const compare::Difference d = compare::compare(drawing->draw(), scanner.draw(view));
         EXPECT_LE(d.max, mostApart) << name << ", " << looked.name << " at " << d.worstX << ", " << d.worstY;
         EXPECT_LE(d.rms, rmsApart) << name << ", " << looked.name;
     }
+    return true;
 }
 
 TEST(DrawnOnce, RandomScenesLookAsCompiledOnes) {
@@ -402,9 +404,60 @@ TEST(DrawnOnce, LevelSidesInLevelStepsLeaveNoHoles) {
             ASSERT_NEAR(drawn.pixel(x, y)[3], 1, 0.5 / 255) << x << ", " << y;
 }
 
+/// Faint circles, in translucent groups of some each, or in none.
+std::string faintCircles(int count, int inGroup) {
+    Numbers numbers;
+    std::string content;
+    for (int i = 0; i < count; ++i) {
+        if (inGroup > 0 && i % inGroup == 0)
+            content += i % (3 * inGroup) == 0 ? "<g opacity=\".3\">" : "<g opacity=\".3\"><g opacity=\".6\">";
+        content += fmt::format(
+            "<circle cx=\"{:.3f}\" cy=\"{:.3f}\" r=\"{:.3f}\" fill=\"#{:06x}\" fill-opacity=\".04\"/>",
+            24 + numbers.between() / 4, 24 + numbers.between() / 4, 8 + numbers.between() / 4,
+            numbers.color());
+        if (inGroup > 0 && i % inGroup == inGroup - 1)
+            content += i / inGroup % 3 == 0 ? "</g>" : "</g></g>";
+    }
+    return content;
+}
+
+/// So many layers on top of each other that a tree of them tells what they show.
+TEST(DrawnOnce, DeepStacksLookAsCompiledOnes) {
+    EXPECT_TRUE(compareDrawings(sceneOf(faintCircles(160, 0)), "circles"));
+    EXPECT_TRUE(compareDrawings(sceneOf(faintCircles(120, 4)), "circles in groups"));
+}
+
+/// Lines of a grid, as many as steps fall on, or on what is between them: black ones below red ones.
+TEST(DrawnOnce, GridsOfManyLinesAreTheirMeans) {
+    constexpr int across = 100;  // lines to a pixel
+    constexpr double share = 0.4;
+    scene::Scene scene;
+    scene.width = scene.height = 64;
+    const auto add = [&](double from, bool isUpright, std::size_t number) {
+        const double to = from + share / across, side = 64;
+        scene::Item item;
+        item.path = std::make_shared<const scene::Path>(isUpright ? scene::rectangle({from, 0}, {to, side})
+                                                                  : scene::rectangle({0, from}, {side, to}));
+        const float shade = float(number % 5) / 255;  // each is a layer of its own
+        item.paint = isUpright ? scene::Color{1, shade, 0, 1} : scene::Color{0, shade, 0, 1};
+        scene.root.children.push_back({item});
+    };
+    for (const bool isUpright : {false, true})
+        for (int i = 0; i < 64 * across; ++i)
+            add((i + 0.1) / across, isUpright, std::size_t(i));
+    const asset::View view{64, 24, {1, 0, 0, 1, 0, -20}};
+    const image::Raster drawn = compiler::ViewDrawing::make(scene, view)->draw();
+    for (int y = 0; y < view.height; ++y)
+        for (int x = 0; x < view.width; ++x) {
+            ASSERT_NEAR(drawn.pixel(x, y)[0], share, 2.0 / 255) << x << ", " << y;
+            ASSERT_NEAR(drawn.pixel(x, y)[3], 1 - (1 - share) * (1 - share), 2.0 / 255) << x << ", " << y;
+        }
+}
+
 TEST(DrawnOnce, DenseStripsDoNotDependOnEachOther) {
     for (const std::string& content :
-         {crossingLines(16000, "nonzero") + stackedCircles(500), gradientStrokes(400, "stroke-width:2")}) {
+         {crossingLines(16000, "nonzero") + stackedCircles(500), gradientStrokes(400, "stroke-width:2"),
+          faintCircles(1200, 0), faintCircles(800, 4)}) {
         const scene::Scene scene = sceneOf(content);
         const auto drawing = compiler::ViewDrawing::make(scene, wholePicture(scene, 100));
         ASSERT_TRUE(drawing);
