@@ -262,7 +262,8 @@ void LineSweep::findPieces(float top, float bottom) {
         if (a.y != b.y)
             return;
         const auto most = float(width_);
-        const auto [left, right] = std::minmax(std::clamp(a.x, 0.0f, most), std::clamp(b.x, 0.0f, most));
+        const float left = std::clamp(std::min(a.x, b.x), 0.0f, most),
+                    right = std::clamp(std::max(a.x, b.x), 0.0f, most);
         levelSides_.length += right - left;
         levelSides_.left = std::min(levelSides_.left, left);
         levelSides_.right = std::max(levelSides_.right, right);
