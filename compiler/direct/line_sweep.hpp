@@ -54,6 +54,10 @@ private:
     static constexpr float mostReach = 0.25f;
     /// An edge of one colour that reaches over more columns in a row is misplaced in too many of them.
     static constexpr float levelReach = 16;
+    /// Of a row, and lines too.
+    static constexpr std::size_t mostSteps = 64;
+    /// Chains looked at where layers begin or end, a band: what they may cost.
+    static constexpr std::size_t endCutsInBand = 16 * 600'000;
 
     struct Step {
         float top, bottom;  ///< where the chains are looked at

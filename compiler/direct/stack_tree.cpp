@@ -70,8 +70,7 @@ void StackTree::close(std::vector<OpenGroup>& open) {
 StackColor StackTree::color(std::span<const std::uint64_t> inside) {
     inside_ = inside;
     Way way;
-    if (root_ != noIndex)
-        goDown(root_, way);
+    goDown(root_, way);
     return {std::bit_cast<glm::vec4>(way.color), way.light > unseen ? 0 : way.hidden};
 }
 

@@ -22,9 +22,9 @@ struct StackColor {
 /// their own. A layer that comes or goes makes the nodes above it stale.
 class StackTree {
 public:
-    /// `colors`, by layer: premultiplied, with the layer's opacity; transparent if it shows nothing.
-    /// `groups`, by layer: the innermost translucent one round it, or noIndex. `around`, by group: the
-    /// innermost translucent one round it or itself.
+    /// `colors`, by layer, of which there are some: premultiplied, with the layer's opacity; transparent if
+    /// it shows nothing. `groups`, by layer: the innermost translucent one round it, or noIndex. `around`, by
+    /// group: the innermost translucent one round it or itself.
     StackTree(const LoweredScene& picture, std::vector<glm::vec4> colors,
               std::span<const std::uint32_t> groups, std::span<const std::uint32_t> around);
 
@@ -73,7 +73,7 @@ private:
     const std::vector<glm::vec4> colors_;
     std::vector<Node> nodes_;
     std::vector<std::uint32_t> blocks_;  ///< by layer
-    std::uint32_t root_ = noIndex;
+    std::uint32_t root_;
     std::span<const std::uint64_t> inside_;
 };
 
