@@ -31,6 +31,20 @@ using scene::compose;
 using scene::Path;
 using scene::Point;
 
+/// Of the first item that has one.
+limits::Place firstPlace(const scene::Group& group) {
+    for (const scene::Node& node : group.children) {
+        limits::Place place;
+        if (const auto* item = std::get_if<scene::Item>(&node.value))
+            place = item->place;
+        else if (const auto* inner = std::get_if<scene::Group>(&node.value))
+            place = firstPlace(*inner);
+        if (place.line > 0)
+            return place;
+    }
+    return {};
+}
+
 class Lowering {
 public:
     Lowering(const scene::Scene& scene, const Excerpt& excerpt, const Lattice& lattice,
@@ -56,6 +70,7 @@ public:
         picture_.outlines.points.reserve(usualPoints);
         picture_.outlines.runs.reserve(usualRuns);
         picture_.groups.emplace_back();
+        place_ = firstPlace(scene.root);
         const limits::Stage stage("compiling", place_);  // between outlines too, an element is named
         if (!cache_)
             ahead_.emplace(scene.root, excerpt.fromScene, [this](Outlines& to, const OutlineOrigin& origin) {

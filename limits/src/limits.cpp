@@ -115,10 +115,13 @@ double Budget::valueOf(Limit limit) const {
     return 0;
 }
 
+/// For a thread that works, where it is; else where one of the budget's threads is.
 Exceeded Budget::exceeded() const {
     const auto limit = static_cast<Limit>(state_.load());
-    const Work& work = context.work;
-    return {limit, valueOf(limit), *work.stage ? work.stage : stage_.load(), placeOf(work)};
+    if (const Work& work = context.work; *work.stage)
+        return {limit, valueOf(limit), work.stage, placeOf(work)};
+    const std::lock_guard lock(lastMutex_);
+    return {limit, valueOf(limit), *last_.stage ? last_.stage : stage_.load(), lastPlace_};
 }
 
 void Budget::throwIfExceeded() const {
@@ -144,11 +147,29 @@ void Budget::need(std::size_t bytes) {
     throwIfExceeded();
 }
 
-void Budget::begin(const char* stage) const {
-    if (stage_.load(std::memory_order_relaxed) == stage)
+void Budget::begin(const Work& work) const {
+    if (limits_.overrunHandler) {
+        const std::lock_guard lock(lastMutex_);
+        keep(work);
+    }
+    if (stage_.load(std::memory_order_relaxed) == work.stage)
         return;  // another thread's, or the next part of it
-    stage_.store(stage, std::memory_order_relaxed);
+    stage_.store(work.stage, std::memory_order_relaxed);
     done_.store(0, std::memory_order_relaxed);
+}
+
+void Budget::end(const Work& work, const Work& before) const {
+    if (!limits_.overrunHandler)
+        return;
+    const std::lock_guard lock(lastMutex_);
+    if (last_ == work)
+        keep(before);
+}
+
+/// Places that must be looked for are not: the watcher may be asked for them later, on a thread of its own.
+void Budget::keep(const Work& work) const {
+    last_ = work;
+    lastPlace_ = work.place == placeItself ? placeOf(work) : Place{};
 }
 
 void Budget::watch() {
@@ -199,9 +220,13 @@ Stage::Stage(const char* stage, const Place& place) : Stage(stage, placeItself, 
 Stage::Stage(const char* stage, Place (*place)(const void*), const void* of) : before_(context.work) {
     context.work = {stage, place, of};
     if (context.budget)
-        context.budget->begin(stage);
+        context.budget->begin(context.work);
 }
-Stage::~Stage() { context.work = before_; }
+Stage::~Stage() {
+    if (context.budget)
+        context.budget->end(context.work, before_);
+    context.work = before_;
+}
 
 void throwIfExceeded() {
     if (context.budget)

@@ -120,6 +120,41 @@ TEST(Limits, WorkThatDoesNotCheckIsReported) {
     EXPECT_GE(budget.seconds(), 0.01 * Limits::overrun);
 }
 
+TEST(Limits, WorkThatDoesNotCheckIsReportedWithItsPlace) {
+    std::atomic<bool> told{false};
+    std::string said;
+    Budget budget({.seconds = 0.01, .overrunHandler = [&](const Exceeded& e, bool) {
+                       said = e.what();
+                       told = true;
+                   }});
+    const Scope scope(budget);
+    const Place outer{.line = 1, .column = 1, .element = "svg"},
+        path{.line = 3, .column = 5, .element = "path"};
+    const Stage compiling("compiling", outer);
+    { const Stage ended("flattening", outer); }
+    const Stage stroking("stroking", path);
+    while (!told)
+        ;
+    EXPECT_EQ(said, "3:5: the limit of 0.01 s was exceeded while stroking <path>");
+}
+
+TEST(Limits, WorkThatDoesNotCheckIsReportedWhereWhatItBeganHasEnded) {
+    std::atomic<bool> told{false};
+    std::string said;
+    Budget budget({.seconds = 0.01, .overrunHandler = [&](const Exceeded& e, bool) {
+                       said = e.what();
+                       told = true;
+                   }});
+    const Scope scope(budget);
+    const Place outer{.line = 1, .column = 1, .element = "svg"},
+        path{.line = 3, .column = 5, .element = "path"};
+    const Stage compiling("compiling", outer);
+    { const Stage stroking("stroking", path); }
+    while (!told)
+        ;
+    EXPECT_EQ(said, "1:1: the limit of 0.01 s was exceeded while compiling <svg>");
+}
+
 TEST(Limits, ResidentMemoryFollowsWhatIsTouched) {
     const std::size_t before = residentBytes();
     const std::vector<char> block(64u << 20, 'x');

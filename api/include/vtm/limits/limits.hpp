@@ -77,6 +77,15 @@ struct Limits {
     static constexpr double overrun = 1.08;
 };
 
+/// A thread's current work: the stage, and a function that finds the place only when it is needed.
+struct Work {
+    const char* stage = "";
+    Place (*place)(const void*) = nullptr;
+    const void* of = nullptr;
+
+    bool operator==(const Work&) const = default;
+};
+
 /// Enforces limits. A thread of its own measures every few milliseconds.
 class Budget {
 public:
@@ -95,7 +104,8 @@ public:
     // What follows is for the library itself.
     void throwIfExceeded() const;
     void need(std::size_t bytes);
-    void begin(const char* stage) const;
+    void begin(const Work& work) const;
+    void end(const Work& work, const Work& before) const;
     void progress(double done) const { done_.store(done, std::memory_order_relaxed); }
 
 private:
@@ -105,6 +115,7 @@ private:
     void measure();
     void measureOverrun();
     Exceeded exceeded() const;
+    void keep(const Work& work) const;
     double valueOf(Limit limit) const;
 
     const Limits limits_;
@@ -116,17 +127,13 @@ private:
     bool overrun_ = false;
     mutable std::mutex thrownMutex_;
     mutable std::optional<Exceeded> thrown_;  ///< the first
+    mutable std::mutex lastMutex_;
+    mutable Work last_;  ///< that a thread began last and has not ended; kept for the overrunHandler only
+    mutable Place lastPlace_;
     std::mutex mutex_;
     std::condition_variable ended_;
     bool isEnding_ = false;
     std::thread watcher_;
-};
-
-/// A thread's current work: the stage, and a function that finds the place only when it is needed.
-struct Work {
-    const char* stage = "";
-    Place (*place)(const void*) = nullptr;
-    const void* of = nullptr;
 };
 
 /// The budget and work of a thread, to be passed on to its worker threads.
