@@ -140,12 +140,12 @@ bool LineSweep::placeByContent(float top, float bottom, std::size_t most) {
     for (std::size_t i = 0, end = 0; i < pieces_.size(); i = end) {
         const float to = top + part * (std::floor((pieces_[i].top - top) / part) + 1);
         float height = 0, moment = 0;
-        for (; end < pieces_.size() && pieces_[end].content == pieces_[i].content && pieces_[end].top < to;
-             ++end) {
+        do {  // at least one: `to` may be rounded to its top
             const float own = pieces_[end].bottom - pieces_[end].top;
             height += own;
             moment += own * 0.5f * (pieces_[end].top + pieces_[end].bottom);
-        }
+            ++end;
+        } while (end < pieces_.size() && pieces_[end].content == pieces_[i].content && pieces_[end].top < to);
         // The piece nearest to the middle stands for all.
         const float middle = moment / height;
         const auto distance = [&](const Piece& p) { return std::abs(0.5f * (p.top + p.bottom) - middle); };

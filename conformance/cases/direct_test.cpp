@@ -454,6 +454,34 @@ TEST(DrawnOnce, GridsOfManyLinesAreTheirMeans) {
         }
 }
 
+/// One outline: upright bars that touch, and far below the top level ones, thirty to a pixel. Heights there
+/// are rounded to more than parts of rows should be.
+TEST(DrawnOnce, BarsThatTouchFarFromTheTopEnd) {
+    constexpr double side = 64, bottom = 500, from = 480;
+    constexpr int upright = 100, level = 30;  // to a pixel
+    scene::Path path;
+    const auto add = [&](scene::Point min, scene::Point max) {
+        const scene::Path bar = scene::rectangle(min, max);
+        path.insert(path.end(), bar.begin(), bar.end());
+    };
+    for (int i = 0; i < int(bottom - from) * level; ++i)
+        add({0, from + double(i) / level}, {side, from + double(i + 1) / level});
+    for (int i = 0; i < int(side) * upright; ++i)
+        add({double(i) / upright, 0}, {double(i + 1) / upright, bottom});
+    scene::Scene scene;
+    scene.width = side;
+    scene.height = bottom;
+    scene::Item item;
+    item.path = std::make_shared<const scene::Path>(std::move(path));
+    item.paint = scene::Color{1, 0, 0, 1};
+    scene.root.children.push_back({item});
+    const asset::View view{int(side), int(bottom)};
+    const image::Raster drawn = compiler::ViewDrawing::make(scene, view)->draw();
+    for (int y = 0; y < view.height; ++y)
+        for (int x = 0; x < view.width; ++x)
+            ASSERT_NEAR(drawn.pixel(x, y)[3], 1, 0.5 / 255) << x << ", " << y;
+}
+
 TEST(DrawnOnce, DenseStripsDoNotDependOnEachOther) {
     for (const std::string& content :
          {crossingLines(16000, "nonzero") + stackedCircles(500), gradientStrokes(400, "stroke-width:2"),
