@@ -113,10 +113,23 @@ public:
         endRun();
         if (points_.size() - 1 == contourStart_)
             points_.pop_back();  // a point that nothing follows
+        else if (isThereAndBack())
+            dropContour();
         started_ = false;
     }
 
 private:
+    /// Whether the contour is a line and the same line back, as that of a `line` element is: nothing lies
+    /// inside.
+    bool isThereAndBack() const {
+        return points_.size() == contourStart_ + std::size_t{3} && points_.back() == points_[contourStart_];
+    }
+    void dropContour() {
+        points_.resize(contourStart_);
+        while (!runs_.empty() && runs_.back().last > contourStart_)
+            runs_.pop_back();
+    }
+
     /// One bit each.
     unsigned sidesBeyond(Point p) const {
         return unsigned(p.x < min_.x) | unsigned(p.x > max_.x) << 1 | unsigned(p.y < min_.y) << 2 |

@@ -132,6 +132,21 @@ TEST(Outline, pointsAloneMakeNoRuns) {
     EXPECT_TRUE(outlines.points.empty());
 }
 
+/// As that of a `line` element.
+TEST(Outline, linesThereAndBackMakeNoRuns) {
+    const scene::Path triangle = scene::polygon({{0, 0}, {100, 0}, {100, 100}});
+    const Outlines expected = outlineInBox(triangle);
+    scene::Path path{scene::MoveTo{{10, 10}}, scene::LineTo{{500, 700}}};
+    path.insert(path.end(), triangle.begin(), triangle.end());
+    for (const scene::Path& line :
+         {scene::Path{scene::MoveTo{{10, 10}}, scene::LineTo{{500, 10}}, scene::Close{}},
+          scene::Path{scene::MoveTo{{3, 3}}, scene::LineTo{{3, 3}}, scene::LineTo{{-900, 2000}}}})
+        path.insert(path.end(), line.begin(), line.end());
+    const Outlines outlines = outlineInBox(path);
+    EXPECT_EQ(outlines.runs.size(), expected.runs.size());
+    EXPECT_TRUE(std::ranges::equal(outlines.points, expected.points));
+}
+
 TEST(Outline, chordsOfACircleStayWithinTheTolerance) {
     const scene::Path circle{scene::MoveTo{{900, 500}}, scene::ArcTo{{400, 400}, 0, false, true, {100, 500}},
                              scene::ArcTo{{400, 400}, 0, false, true, {900, 500}}, scene::Close{}};
