@@ -122,6 +122,8 @@ std::int32_t CoveredRow::nextOpen(std::int32_t block) {
 }
 
 bool CoveredRow::isOpen(std::int32_t first, std::int32_t last) {
+    if (last < first)
+        return false;
     for (std::int32_t b = nextOpen(first / blockSquares); b * blockSquares <= last; b = nextOpen(b + 1))
         if (isOpenIn(b, std::max(first, b * blockSquares), std::min(last + 1, (b + 1) * blockSquares)))
             return true;

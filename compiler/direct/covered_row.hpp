@@ -11,12 +11,19 @@
 
 namespace vtm::compiler {
 
-/// Squares [first, last] that a chain of an outline touches, and what it adds to the winding number on its
-/// right.
+/// Squares [first, last] that a chain of an outline touches, none if last < first, and what it adds to the
+/// winding number on its right.
 struct Touch {
     std::int32_t first, last;
     std::int32_t winding;
     bool isEnd = false;  ///< it begins or ends within the row
+
+    /// Left of all squares.
+    static Touch before(std::int32_t winding, bool isEnd) { return {0, -1, winding, isEnd}; }
+    /// Right of so many squares.
+    static Touch behind(std::int32_t squares, std::int32_t winding, bool isEnd) {
+        return {squares, squares - 1, winding, isEnd};
+    }
 };
 
 /// Between chains of an outline that begin or end there may be level sides, of which no chain tells: it

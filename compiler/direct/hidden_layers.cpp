@@ -76,8 +76,9 @@ void HiddenLayers::makeSquares(int band, double most) {
                                                           : highest;
     while (double(width_) * bandRows > most * squareWidth_ * squareHeight_)
         (squareWidth_ < squareHeight_ || squareHeight_ == bandRows ? squareWidth_ : squareHeight_) *= 2;
-    columns_ = std::int32_t(float(width_) / squareWidth_) + 1;
-    rows_ = std::int32_t(bandRows / squareHeight_);
+    columns_ = std::int32_t(std::ceil(float(width_) / squareWidth_));
+    const float shown = std::min(bottom, float(chains_.height())) - top;
+    rows_ = std::int32_t(std::ceil(shown / squareHeight_));
     if (squares_.size() != std::size_t(rows_) || squares_[0].squares() != columns_)
         squares_.assign(std::size_t(rows_), CoveredRow(columns_));
     touches_.resize(std::size_t(rows_));
@@ -110,9 +111,7 @@ void HiddenLayers::lookAt(int band, std::span<const LayerCover> covers) {
 template <class Take>
 void HiddenLayers::follow(const DownChain& chain, std::uint32_t& at, float top, const Take& take) const {
     const glm::vec2* const vertices = chains_.vertices();
-    const auto row = [&](float y) {
-        return std::int32_t(std::clamp((y - top) / squareHeight_, 0.0f, float(rows_ - 1)));
-    };
+    const auto row = [&](float rows) { return std::int32_t(std::clamp(rows, 0.0f, float(rows_ - 1))); };
     const auto xAt = [&](float y) {
         const glm::vec2 a = vertices[at], b = vertices[at + 1];
         return a.x + (y - a.y) * ((b.x - a.x) / (b.y - a.y));
@@ -120,8 +119,8 @@ void HiddenLayers::follow(const DownChain& chain, std::uint32_t& at, float top, 
     while (at + 1 < chain.end && vertices[at + 1].y <= top)
         ++at;
     float x = vertices[at].y < top && at + 1 < chain.end ? xAt(top) : vertices[at].x;
-    const std::int32_t last = row(chain.bottom);
-    for (std::int32_t r = row(chain.top); r <= last; ++r) {
+    const std::int32_t last = row(std::ceil((chain.bottom - top) / squareHeight_) - 1);
+    for (std::int32_t r = row((chain.top - top) / squareHeight_); r <= last; ++r) {
         const float upper = top + float(r) * squareHeight_, lower = upper + squareHeight_,
                     middle = lower - 0.5f * squareHeight_, from = x;
         const std::uint32_t first = at;
@@ -192,10 +191,16 @@ void HiddenLayers::leanRow(std::int32_t row, std::span<const Leaning> leanings) 
 void HiddenLayers::touch(const DownChain& chain, std::uint32_t& at, float top) {
     follow(chain, at, top, [&](const Passage& p) {
         // What is not met in the middle adds nothing on its right.
-        touches_[std::size_t(p.row)].push_back(
-            {std::min(columnOf(p.left[0]), squareAbove(p.row, p.left[1])),
-             std::max(columnOf(p.right[0]), squareAbove(p.row, p.right[1])), p.isAtMiddle ? chain.winding : 0,
-             !p.spans});
+        const std::int32_t winding = p.isAtMiddle ? chain.winding : 0;
+        std::vector<Touch>& touches = touches_[std::size_t(p.row)];
+        if (std::max(p.right[0], p.right[1]) <= 0)
+            touches.push_back(Touch::before(winding, !p.spans));
+        else if (std::min(p.left[0], p.left[1]) >= float(width_))
+            touches.push_back(Touch::behind(columns_, winding, !p.spans));
+        else
+            touches.push_back({std::min(columnOf(p.left[0]), squareAbove(p.row, p.left[1])),
+                               std::max(columnOf(p.right[0]), squareAbove(p.row, p.right[1])), winding,
+                               !p.spans});
     });
 }
 

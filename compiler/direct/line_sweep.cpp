@@ -81,7 +81,7 @@ LineSweep::LineSweep(const ViewChains& chains, RegionState& state, PixelColors& 
       sums_(std::size_t(width) + 2),
       shares_(sums_.size()),
       pixelSums_(sums_.size()),
-      squares_((width + 2) * squaresInAPixel + 1) {}
+      squares_(width * squaresInAPixel) {}
 
 void LineSweep::run(std::span<const std::uint32_t> numbers, float top, float bottom,
                     std::vector<asset::Chord>& chords) {
@@ -342,16 +342,20 @@ bool LineSweep::isShown(std::span<const Seen> ofLayer) {
     if (!cover.mayBeHidden)
         return true;
     const auto square = [&](float x) {
-        return std::clamp(std::int32_t((x + ViewChains::beside) * squaresInAPixel), 0,
-                          squares_.squares() - 1);
+        return std::clamp(std::int32_t(x * squaresInAPixel), 0, squares_.squares() - 1);
     };
     touches_.clear();
     for (const Seen& seen : ofLayer) {
         const std::int32_t winding = seen.isAtMiddle ? seen.winding : 0;
-        if (seen.isSpecial)
-            touches_.push_back({square(seen.left), square(seen.right), winding, seen.hasEnd});
-        else if (seen.isAtMiddle)
-            touches_.push_back({square(seen.x), square(seen.x), winding, false});
+        if (!seen.isSpecial && !seen.isAtMiddle)
+            continue;
+        const float left = seen.isSpecial ? seen.left : seen.x, right = seen.isSpecial ? seen.right : seen.x;
+        if (right <= 0)
+            touches_.push_back(Touch::before(winding, seen.hasEnd));
+        else if (left >= float(width_))
+            touches_.push_back(Touch::behind(squares_.squares(), winding, seen.hasEnd));
+        else
+            touches_.push_back({square(left), square(right), winding, seen.hasEnd});
     }
     sortStably(touches_.begin(), touches_.end(),
                [](const Touch& a, const Touch& b) { return a.first < b.first; });

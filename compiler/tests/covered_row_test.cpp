@@ -60,6 +60,22 @@ Where whereIs(const Layer& layer, std::int32_t column) {
     return (layer.isEvenOdd ? winding % 2 : winding) != 0 ? Where::Inside : Where::Outside;
 }
 
+TEST(CoveredRow, ShowsNothingBesideIt) {
+    CoveredRow row(columns);
+    const LayerCover opaque{1, noIndex, true};
+    std::size_t steps = 1000;
+    const std::vector<Touch> around{Touch::before(1, false), Touch::behind(columns, -1, false)};
+    EXPECT_TRUE(row.add(around, opaque, false, steps));
+    EXPECT_FALSE(row.add(around, opaque, false, steps));
+    // What begins and ends on the left touches nothing; what begins there and ends in the row does.
+    CoveredRow other(columns);
+    EXPECT_FALSE(
+        other.add(std::vector<Touch>{Touch::before(1, true), Touch::before(-1, true)}, opaque, false, steps));
+    EXPECT_TRUE(
+        other.add(std::vector<Touch>{Touch::before(1, true), {5, 5, -1, true}}, opaque, false, steps));
+    EXPECT_TRUE(other.add(std::vector<Touch>{{0, 0, 1, false}, {1, 1, -1, false}}, opaque, false, steps));
+}
+
 TEST(CoveredRow, ShowsWhatAnySquareShows) {
     std::mt19937 random(3);
     int shown = 0, hidden = 0;

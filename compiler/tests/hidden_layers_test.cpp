@@ -138,6 +138,25 @@ TEST(HiddenLayers, AreMostOfNearlyEqualOutlines) {
         share);
 }
 
+/// What lies beside the picture shows nowhere.
+TEST(HiddenLayers, AreMostThatReachBeyondThePicture) {
+    Numbers numbers(5);
+    for (const bool isCut : {false, true}) {  // at the right side and at the bottom, in the picture
+        std::vector<Shape> shapes(count);
+        for (Shape& shape : shapes) {
+            const auto beyond = [&] { return side + numbers.number(1, 40); };
+            const auto end = [&] { return isCut ? numbers.number(side / 2, side) : beyond(); };
+            const double right = end(), bottom = end();
+            shape.alpha = 0.5;
+            shape.corners = {{-beyond() + side, -beyond() + side},
+                             {right, -beyond() + side},
+                             {right, bottom},
+                             {-beyond() + side, bottom}};
+        }
+        EXPECT_GE(hiddenShare(shapes, numbers), isCut ? 0.5 : 0.999);
+    }
+}
+
 TEST(HiddenLayers, ShowNowhere) {
     for (unsigned seed = 1; seed <= 4; ++seed) {
         Numbers numbers(seed);
