@@ -24,6 +24,7 @@ RegionState::RegionState(const LoweredScene& picture)
     : picture_(picture),
       layers_(picture.layers.size()),
       shades_(picture.layers.size()),
+      covers_(layerCovers(picture)),
       translucent_(picture.groups.size(), noIndex),
       inside_(picture.layers.size() / 64 + 1),
       filled_(inside_.size() / 64 + 1) {
@@ -40,7 +41,6 @@ RegionState::RegionState(const LoweredScene& picture)
                         group.blend == scene::BlendMode::Normal && group.mask == noIndex;
         translucent_[g] = group.opacity < 1 ? g : isRoot ? noIndex : translucent_[group.parent];
     }
-    const std::vector<LayerCover> covers = layerCovers(picture);
     for (const LoweredItem& item : picture.items) {
         const Source& source = picture.sources[item.source];
         Shade& shade = shades_[item.layer];
@@ -53,7 +53,6 @@ RegionState::RegionState(const LoweredScene& picture)
         shade.group = translucent_[item.group];
         const auto& c = source.color;
         shade.color = item.opacity * glm::vec4(c[0], c[1], c[2], c[3]);
-        shade.cover = covers[item.layer];
     }
     forgetPaints();
 }
@@ -92,7 +91,7 @@ std::uint32_t RegionState::hiddenByFew() const {
     int looked = 0;
     forEachFromTop([&](std::uint32_t layer) {
         if (shades_[layer].kind != Shade::None && !isClippedAway(layer))
-            below.add(shades_[layer].cover);
+            below.add(covers_[layer]);
         if (below.light() <= unseen)
             hidden = layer;
         return hidden == 0 && ++looked < few;
@@ -262,7 +261,7 @@ bool RegionState::listItems(Region& region) {
             return true;
         list_.push_back(picture_.itemOfLayer[layer]);
         areColors = areColors && shade.isColor;
-        below.add(shade.cover);
+        below.add(covers_[layer]);
         if (below.light() > unseen || list_.size() < deep)
             return true;
         region.hidden = layer;

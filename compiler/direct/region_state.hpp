@@ -93,7 +93,7 @@ public:
     }
     /// Items' layers below this one do not matter, as far as a few of the topmost tell.
     std::uint32_t hiddenByFew() const;
-    const LayerCover& cover(std::uint32_t layer) const { return shades_[layer].cover; }
+    const LayerCover& cover(std::uint32_t layer) const { return covers_[layer]; }
     bool isOfClip(std::uint32_t layer) const { return shades_[layer].kind == Shade::None; }
     bool isInside(std::uint32_t layer, std::int32_t winding) const {
         return layers_[layer].isInside(winding);
@@ -145,11 +145,10 @@ private:
             Other
         } kind = None;
         bool isClipped = false;
-        bool isLaidOver = false;        ///< in no group but such
+        bool isLaidOver = false;  ///< in no group but such
+        bool isColor = false;
         std::uint32_t group = noIndex;  ///< the innermost that is translucent
         glm::vec4 color{0};             ///< with its opacity
-        bool isColor = false;
-        LayerCover cover;
     };
     /// A translucent group that is composited, from the top.
     struct Open {
@@ -185,6 +184,7 @@ private:
     const LoweredScene& picture_;
     std::vector<LayerState> layers_;
     std::vector<Shade> shades_;               ///< by layer
+    std::vector<LayerCover> covers_;          ///< by layer
     std::vector<std::uint32_t> translucent_;  ///< by group: the innermost round it and with it
     std::vector<Open> open_;
     std::uint64_t key_ = 0;
