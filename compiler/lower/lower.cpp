@@ -31,18 +31,16 @@ using scene::compose;
 using scene::Path;
 using scene::Point;
 
-/// Of the first item that has one.
-limits::Place firstPlace(const scene::Group& group) {
+/// Of the first item; null if there is none.
+const limits::Place* firstPlace(const scene::Group& group) {
     for (const scene::Node& node : group.children) {
-        limits::Place place;
         if (const auto* item = std::get_if<scene::Item>(&node.value))
-            place = item->place;
-        else if (const auto* inner = std::get_if<scene::Group>(&node.value))
-            place = firstPlace(*inner);
-        if (place.line > 0)
-            return place;
+            return &item->place;
+        if (const auto* inner = std::get_if<scene::Group>(&node.value))
+            if (const limits::Place* place = firstPlace(*inner))
+                return place;
     }
-    return {};
+    return nullptr;
 }
 
 class Lowering {
@@ -70,7 +68,8 @@ public:
         picture_.outlines.points.reserve(usualPoints);
         picture_.outlines.runs.reserve(usualRuns);
         picture_.groups.emplace_back();
-        place_ = firstPlace(scene.root);
+        if (const limits::Place* first = firstPlace(scene.root))
+            place_ = *first;
         const limits::Stage stage("compiling", place_);  // between outlines too, an element is named
         if (!cache_)
             ahead_.emplace(scene.root, excerpt.fromScene, [this](Outlines& to, const OutlineOrigin& origin) {
