@@ -46,6 +46,8 @@ public:
 
     void clear();
     std::int32_t squares() const { return squares_; }
+    /// Whether nothing shows of what is laid under all layers so far.
+    bool isHidden() { return !isOpen(0, squares_ - 1); }
     /// Lays a layer under those before. Touches are sorted by their first squares. Returns whether it shows
     /// anywhere. `stepsLeft`: so many times squares of a block may still be covered.
     bool add(std::span<const Touch> touches, const LayerCover& cover, bool isEvenOdd, std::size_t& stepsLeft);

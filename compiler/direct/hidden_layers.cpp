@@ -92,19 +92,31 @@ void HiddenLayers::lookAt(int band, std::span<const LayerCover> covers) {
         row.clear();
     stepsLeft_ = mostBlockVisits / std::size_t(chains_.bands());
     leanSquares(float(band * bandRows));
+    std::size_t hiddenRows = 0;  // from the top of the band
     for (std::size_t i = 0; i < numbers_.size();) {
-        const std::size_t before = i;
+        const std::size_t first = i;
         const std::uint32_t layer = chains_[numbers_[i]].layer;
-        for (std::vector<Touch>& touches : touches_)
-            touches.clear();
-        for (; i < numbers_.size() && chains_[numbers_[i]].layer == layer; ++i)
-            touch(chains_[numbers_[i]], at_[numbers_[i]], float(band * bandRows));
-        const bool isEvenOdd = picture_.layers[layer].rule == scene::FillRule::EvenOdd;
-        if (!covers[layer].mayBeHidden || add(covers[layer], isEvenOdd))
+        while (i < numbers_.size() && chains_[numbers_[i]].layer == layer)
+            ++i;
+        const std::span ofLayer = std::span(numbers_).subspan(first, i - first);
+        if (!covers[layer].mayBeHidden ||
+            (hiddenRows < squares_.size() && isShown(ofLayer, covers[layer], band)))
             continue;
         isHidden_[placeOf(layer, band)] = true;
-        hiddenInBands_ += i - before;
+        hiddenInBands_ += ofLayer.size();
+        while (hiddenRows < squares_.size() && squares_[hiddenRows].isHidden())
+            ++hiddenRows;
     }
+}
+
+/// Whether the layer of these chains shows in the band. What lies below is laid under it.
+bool HiddenLayers::isShown(std::span<const std::uint32_t> ofLayer, const LayerCover& cover, int band) {
+    for (std::vector<Touch>& touches : touches_)
+        touches.clear();
+    for (const std::uint32_t number : ofLayer)
+        touch(chains_[number], at_[number], float(band * bandRows));
+    const std::uint32_t layer = chains_[ofLayer[0]].layer;
+    return add(cover, picture_.layers[layer].rule == scene::FillRule::EvenOdd);
 }
 
 /// Calls take(passage) for each row of the band that a chain meets.

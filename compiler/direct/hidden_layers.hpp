@@ -65,6 +65,7 @@ private:
     void leanSquares(float top);
     void leanRow(std::int32_t row, std::span<const Leaning> leanings);
     void touch(const DownChain& chain, std::uint32_t& at, float top);
+    bool isShown(std::span<const std::uint32_t> ofLayer, const LayerCover& cover, int band);
     bool add(const LayerCover& cover, bool isEvenOdd);
     std::int32_t columnOf(float x) const {
         return std::int32_t(std::clamp(x / squareWidth_, 0.0f, float(columns_ - 1)));

@@ -321,14 +321,21 @@ void LineSweep::lookAtAll(const Step& step) {
 void LineSweep::lookForShown(const Step& step) {
     seen_.clear();
     squares_.clear();
+    bool isRowHidden = false;
     for (std::size_t i = 0; i < cuts_.size();) {
+        const std::uint32_t layer = cuts_[i].layer;
+        const bool isPassedOver = isRowHidden && state_.cover(layer).mayBeHidden;
         const std::size_t before = seen_.size();
-        for (const std::uint32_t layer = cuts_[i].layer; i < cuts_.size() && cuts_[i].layer == layer; ++i) {
+        for (; i < cuts_.size() && cuts_[i].layer == layer; ++i) {
+            if (isPassedOver)
+                continue;
             fetchAhead(i, step.bottom);
             look(i, step, seen_.emplace_back());
         }
-        if (!isShown(std::span(seen_).subspan(before)))
-            seen_.erase(seen_.begin() + std::ptrdiff_t(before), seen_.end());
+        if (isPassedOver || isShown(std::span(seen_).subspan(before)))
+            continue;
+        seen_.erase(seen_.begin() + std::ptrdiff_t(before), seen_.end());
+        isRowHidden = isRowHidden || squares_.isHidden();
     }
     order_.clear();
     for (const Seen& seen : seen_)
