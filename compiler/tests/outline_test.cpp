@@ -140,7 +140,7 @@ TEST(Outline, linesThereAndBackMakeNoRuns) {
     path.insert(path.end(), triangle.begin(), triangle.end());
     for (const scene::Path& line :
          {scene::Path{scene::MoveTo{{10, 10}}, scene::LineTo{{500, 10}}, scene::Close{}},
-          scene::Path{scene::MoveTo{{3, 3}}, scene::LineTo{{3, 3}}, scene::LineTo{{-900, 2000}}}})
+          scene::Path{scene::MoveTo{{3, 3}}, scene::LineTo{{3, 3}}, scene::LineTo{{900, 600}}}})
         path.insert(path.end(), line.begin(), line.end());
     const Outlines outlines = outlineInBox(path);
     EXPECT_EQ(outlines.runs.size(), expected.runs.size());
