@@ -109,7 +109,7 @@ void HiddenLayers::lookAt(int band, std::span<const LayerCover> covers) {
     }
 }
 
-/// Whether the layer of these chains shows in the band. What lies below is laid under it.
+/// Lays the layer of these chains under those before. Returns whether it shows in the band.
 bool HiddenLayers::isShown(std::span<const std::uint32_t> ofLayer, const LayerCover& cover, int band) {
     for (std::vector<Touch>& touches : touches_)
         touches.clear();

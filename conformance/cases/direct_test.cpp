@@ -454,8 +454,8 @@ TEST(DrawnOnce, GridsOfManyLinesAreTheirMeans) {
         }
 }
 
-/// One outline: upright bars that touch, and far below the top level ones, thirty to a pixel. Heights there
-/// are rounded to more than parts of rows should be.
+/// One outline: upright bars that touch, and far below the top level ones, thirty to a pixel. There y is so
+/// large that part of a row, added to it, may be rounded away.
 TEST(DrawnOnce, BarsThatTouchFarFromTheTopEnd) {
     constexpr double side = 64, bottom = 500, from = 480;
     constexpr int upright = 100, level = 30;  // to a pixel
