@@ -17,7 +17,7 @@ constexpr float mostHeight = 4;
 /// And a slab costs as much as so many steps besides.
 constexpr std::size_t slabSteps = 500;
 
-/// A strip in which sweeping takes more, or more a row, goes on in level steps, and so it does where a slab
+/// A strip in which sweeping takes more, or more a row, is passed on, and so it is where a slab
 /// would take more and cannot be made thinner (or twice as much, unless it has many short chains, and in the
 /// thinnest slabs all of it takes less); so does one that remembers too many programs.
 constexpr std::size_t mostInStrip = 1u << 22, mostInRow = 1u << 19, mostInSlab = 1u << 23,
@@ -25,20 +25,21 @@ constexpr std::size_t mostInStrip = 1u << 22, mostInRow = 1u << 19, mostInSlab =
 /// So does one that begins with more chains, of so many layers that some may hide others: a row could look at
 /// them only a few times. Chains of few layers may not cross at all.
 constexpr std::size_t mostAtOnce = 1u << 17, manyLayers = 64;
-/// And one of more than this, if steps in their first row show that it would take too much.
-constexpr std::size_t manyOfOne = 1u << 15;
+/// Where there are only colours, that takes so many times less.
+constexpr std::size_t sampledShare = 4;
 /// A region that is not known costs as much as so many steps, and one more for so many layers.
 constexpr std::size_t regionSteps = 8, layersInStep = 4;
-/// So many chains that the state crosses cost as much as a step.
-constexpr std::size_t crossedInStep = 8;
+/// So many chains that the state crosses are a step: as long as it takes only where there are other ways.
+constexpr std::size_t crossedInStep = 8, fewCrossedInStep = 2;
 /// A chord of a program costs as much as so many steps.
 constexpr std::size_t programSteps = 2;
 /// Then the next band is tried again if it has fewer chains than this, or half as many as before; else the
 /// next strip.
 constexpr std::size_t fewToBegin = 1u << 15;
 
-/// So many edges are tangled if each crosses two others within a row.
-constexpr std::size_t fewTangled = 1024;
+/// So many edges are tangled if each crosses two others within a row; of more than so many even their single
+/// pixels would take too much.
+constexpr std::size_t fewTangled = 1024, manyTangled = 1u << 15;
 
 /// Where the line from a down to b is at y.
 float xBetween(glm::vec2 a, glm::vec2 b, float y) {
@@ -47,14 +48,23 @@ float xBetween(glm::vec2 a, glm::vec2 b, float y) {
 
 }  // namespace
 
-BandSweep::BandSweep(const ViewChains& chains, RegionState& state, PixelColors& pixels, std::size_t layers,
-                     int width)
+BandSweep::BandSweep(const LoweredScene& picture, const ViewChains& chains, RegionState& state,
+                     PixelColors& pixels, int width)
     : chains_(chains),
       vertices_(chains.vertices()),
       state_(state),
       outline_(chains, state, width),
       lines_(chains, state, pixels, width),
-      windings_(layers) {}
+      mostInSlab_(mostInSlab),
+      crossedInStep_(crossedInStep),
+      windings_(picture.layers.size()) {
+    if (!state.hasOnlyColors())
+        return;
+    sampled_.emplace(picture, chains, state, width);
+    share_ = sampledShare;
+    crossedInStep_ = fewCrossedInStep;
+    mostInSlab_ /= share_;
+}
 
 void BandSweep::run(int band, bool begins, std::vector<asset::Chord>& chords) {
     chords_ = &chords;
@@ -66,35 +76,34 @@ void BandSweep::run(int band, bool begins, std::vector<asset::Chord>& chords) {
     if (begins) {
         // What a sweep costs, and so how it goes, must not depend on what the thread has drawn before.
         state_.forgetRegions();
-        onLines_ = 0;
+        passedOn_ = 0;
         stripSteps_ = 0;
         stripTop_ = top;
         releaseAll();
-        if ((above > mostAtOnce && windings_.size() >= manyLayers) ||
-            (above > manyOfOne && lines_.isTangled(chains, top)))
-            onLines_ = chains.size();
+        if (above > mostAtOnce && windings_.size() >= manyLayers)
+            passedOn_ = chains.size();
     }
-    if (state_.remembersMuch() || (onLines_ > fewToBegin && 2 * chains.size() > onLines_))
-        return goOnLines(chains, top, bottom);
-    if (begins || isPassedOver_ || onLines_ > 0 || chains_.areLeftOut())
+    if (state_.remembersMuch() || (passedOn_ > fewToBegin && 2 * chains.size() > passedOn_))
+        return passOn(chains, top, bottom);
+    if (begins || isPassedOver_ || passedOn_ > 0 || chains_.areLeftOut())
         begin(chains.first(above), top);
     const bool isTangled = this->isTangled(top);
-    if (isTangled && sorted_.size() > manyOfOne && lines_.isTangled(chains, top))
-        return goOnLines(chains, top, bottom);
+    if (isTangled && sorted_.size() > manyTangled && sampled_)
+        return passOn(chains, top, bottom);
     isPassedOver_ = isTangled && outline_.draw(chains, top, bottom, chords);
     if (isPassedOver_)
         return leave(top);
-    onLines_ = 0;
+    passedOn_ = 0;
     toCome_ = chains.subspan(above);
     for (float y = top; y < bottom;) {
         limits::check();
         steps_ = 0;
         thinnest_ = std::max(leastHeight, float(active_.size()) / looksInRow);
-        if (state_.remembersMuch() || stripSteps_ > mostInStrip + std::size_t(y - stripTop_) * mostInRow)
-            return goOnLines(chains, y, bottom);
+        if (state_.remembersMuch() || stripSteps_ > mayTake(y))
+            return passOn(chains, y, bottom);
         if (!slab({y, y + height_})) {
             if (!mayBeThinner(y))
-                return goOnLines(chains, y, bottom);
+                return passOn(chains, y, bottom);
             height_ *= 0.5f;
             stripSteps_ += active_.size() + events_.size();
             continue;
@@ -114,12 +123,17 @@ void BandSweep::run(int band, bool begins, std::vector<asset::Chord>& chords) {
     moveState(0);
 }
 
+/// Steps of the strip down to y.
+std::size_t BandSweep::mayTake(float y) const {
+    return (mostInStrip + std::size_t(y - stripTop_) * mostInRow) / share_;
+}
+
 /// Whether a slab from y on that would take too much is to be halved. In half of the height it takes a
 /// quarter, and there are twice as many looks: that is much less where most of the chains are short.
 bool BandSweep::mayBeThinner(float y) const {
     if (height_ < 2 * thinnest_)
         return false;
-    if (wouldTake_ <= 2 * mostInSlab)
+    if (wouldTake_ <= 2 * mostInSlab_)
         return true;
     const auto endsBelow = [&](std::uint32_t chain) { return chains_[chain].bottom > y + height_; };
     const std::size_t chains = active_.size() + beginning_.size(),
@@ -146,13 +160,16 @@ void BandSweep::leave(float y) {
     moveState(0);
 }
 
-/// Draws the rest of the band in level steps.
-void BandSweep::goOnLines(std::span<const std::uint32_t> chains, float top, float bottom) {
-    if (onLines_ == 0) {
+/// The rest of the band is drawn without following what happens: at places, or in level steps.
+void BandSweep::passOn(std::span<const std::uint32_t> chains, float top, float bottom) {
+    if (passedOn_ == 0) {
         leave(top);
-        onLines_ = chains.size();
+        passedOn_ = chains.size();
     }
-    lines_.run(chains, top, bottom, *chords_);
+    if (sampled_ && !lines_.isDrawnByContent(chains, top))
+        sampled_->run(chains, top, bottom, *chords_);
+    else
+        lines_.run(chains, top, bottom, *chords_);
 }
 
 // ---- Chains ---------------------------------------------------------------------------------------
@@ -233,7 +250,7 @@ bool BandSweep::slab(Slab slab) {
     look(slab);
     lookAtBeginning(slab);
     wouldTake_ = gather() ? stepsOfGroups(slab.bottom) : std::numeric_limits<std::size_t>::max();
-    if (wouldTake_ > mostInSlab)
+    if (wouldTake_ > mostInSlab_)
         return false;
     toCome_ = toCome_.subspan(count);
     state_.forgetManyRegions();
@@ -340,7 +357,7 @@ bool BandSweep::gather() {
         while (event.end < columns_.size() && columns_[event.end].left <= event.right)
             ++event.end;
         looks += event.end - event.first;
-        if (looks > mostInSlab)
+        if (looks > mostInSlab_)
             return false;
         if (groups_.empty() || (event.first >= groups_.back().end && event.left > groups_.back().right)) {
             groups_.push_back(event);
@@ -364,7 +381,7 @@ std::size_t BandSweep::stepsOfGroups(float bottom) {
         std::size_t bends = group.bends;
         for (std::size_t i = group.first; i < group.end; ++i)
             bends += active_[i]->isBent ? active_[i]->bends : 0;
-        if (bends * members > mostInSlab)
+        if (bends * members > mostInSlab_)
             bends = heights(group, bottom);
         steps += bends * members;
     }
@@ -459,7 +476,7 @@ Region BandSweep::regionAfter(std::size_t at, const Region& left, std::uint64_t 
 void BandSweep::crossMembers(std::size_t count) {
     moveState(done_.size());
     keepState(count);
-    steps_ += (count - crossedMembers_.size()) / crossedInStep;
+    steps_ += (count - crossedMembers_.size()) / crossedInStep_;
     while (crossedMembers_.size() < count) {
         const Active& a = *members_[crossedMembers_.size()];
         state_.cross(a.layer, a.winding);
@@ -470,7 +487,7 @@ void BandSweep::crossMembers(std::size_t count) {
 /// Takes the state back to the left of the member with that number.
 void BandSweep::keepState(std::size_t members) {
     if (crossedMembers_.size() > members)
-        steps_ += (crossedMembers_.size() - members) / crossedInStep;
+        steps_ += (crossedMembers_.size() - members) / crossedInStep_;
     for (; crossedMembers_.size() > members; crossedMembers_.pop_back())
         state_.cross(crossedMembers_.back().layer, -crossedMembers_.back().winding);
 }
@@ -480,7 +497,7 @@ void BandSweep::moveState(std::size_t done) {
     if (crossedDone_.size() == done)
         return;
     keepState(0);
-    steps_ += (std::max(crossedDone_.size(), done) - std::min(crossedDone_.size(), done)) / crossedInStep;
+    steps_ += (std::max(crossedDone_.size(), done) - std::min(crossedDone_.size(), done)) / crossedInStep_;
     for (; crossedDone_.size() > done; crossedDone_.pop_back())
         state_.cross(crossedDone_.back().layer, -crossedDone_.back().winding);
     while (crossedDone_.size() < done) {

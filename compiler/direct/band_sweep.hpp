@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <deque>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,6 +25,7 @@
 #include "compiler/direct/outline_rows.hpp"
 #include "compiler/direct/quiet_chains.hpp"
 #include "compiler/direct/region_state.hpp"
+#include "compiler/direct/sampled_rows.hpp"
 #include "compiler/direct/view_chains.hpp"
 #include "raster/chord.hpp"
 
@@ -36,7 +38,7 @@ inline constexpr int stripBands = 4;
 class BandSweep {
 public:
     /// `state` is outside of all layers, and is so again after each band. All must outlive it.
-    BandSweep(const ViewChains& chains, RegionState& state, PixelColors& pixels, std::size_t layers,
+    BandSweep(const LoweredScene& picture, const ViewChains& chains, RegionState& state, PixelColors& pixels,
               int width);
 
     /// Appends the chords of a band; their paints are the state's. Sweeps on from the band above, or begins
@@ -110,10 +112,11 @@ private:
     bool nextEdge(Active& active) const;
     void begin(std::span<const std::uint32_t> chains, float top);
     bool slab(Slab slab);
+    std::size_t mayTake(float y) const;
     bool mayBeThinner(float y) const;
     bool isTangled(float y);
     void leave(float y);
-    void goOnLines(std::span<const std::uint32_t> chains, float top, float bottom);
+    void passOn(std::span<const std::uint32_t> chains, float top, float bottom);
     void look(Slab slab);
     Columns lookAt(Active& active, std::size_t number, float bottom);
     bool isOrdered(const Active& left, const Active& right, float bottom) const;
@@ -179,8 +182,11 @@ private:
     float stripTop_ = 0;
     OutlineRows outline_;
     LineSweep lines_;
+    std::optional<SampledRows> sampled_;  ///< where there are only colours
+    std::size_t share_ = 1;               ///< of what a sweep may take else
+    std::size_t mostInSlab_, crossedInStep_;
     bool isPassedOver_ = false;     ///< the last band, which `outline_` has drawn
-    std::size_t onLines_ = 0;       ///< chains of the band that went on in level steps, if the last one did
+    std::size_t passedOn_ = 0;      ///< chains of the band that was passed on, if the last one was
     float height_ = 1;              ///< of slabs
     float thinnest_ = leastHeight;  ///< of slabs with as many chains as now
 

@@ -95,6 +95,15 @@ void LineSweep::run(std::span<const std::uint32_t> numbers, float top, float bot
     state_.preferDeep(false);
 }
 
+bool LineSweep::isDrawnByContent(std::span<const std::uint32_t> numbers, float top) {
+    const float bottom = std::floor(top) + 1;
+    begin(numbers);
+    take(top, bottom);
+    findPieces(top, bottom);
+    steps_.clear();
+    return placeByContent(top, bottom, stepsInRow());
+}
+
 bool LineSweep::isTangled(std::span<const std::uint32_t> numbers, float top) {
     begin(numbers);
     if (!isOneColor_)

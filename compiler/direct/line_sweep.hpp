@@ -45,6 +45,9 @@ public:
     void run(std::span<const std::uint32_t> numbers, float top, float bottom,
              std::vector<asset::Chord>& chords);
 
+    /// Whether the row from there on has level sides, and so few different parts between them that each is
+    /// drawn as it is.
+    bool isDrawnByContent(std::span<const std::uint32_t> numbers, float top);
     /// Whether, in the row from there on, so many edges of one colour cross in each step that it is drawn
     /// along lines anyway.
     bool isTangled(std::span<const std::uint32_t> numbers, float top);
@@ -168,6 +171,7 @@ private:
     void lookInside(const DownChain& chain);
     void row(float top, float bottom);
     bool findSteps(float top, float bottom);
+    std::size_t stepsInRow() const;
     void findPieces(float top, float bottom);
     std::size_t chainsAmongSides(const Step& row);
     bool placeByContent(float top, float bottom, std::size_t most);

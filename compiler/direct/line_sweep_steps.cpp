@@ -30,9 +30,7 @@ bool LineSweep::findSteps(float top, float bottom) {
     isArranged_ = false;
     order_.clear();
     findPieces(top, bottom);
-    const double ends = double(contentChanges_.size()) / double(cuts_.size() + 1);
-    const double most = cutsInRow / costOfCut_ / (meanCut_ + 1);
-    const auto count = std::clamp(std::size_t(most * (1 + moreForEnds * ends)), leastSteps, mostSteps);
+    const std::size_t count = stepsInRow();
     steps_.clear();
     if (placeByContent(top, bottom, count))
         return true;
@@ -62,6 +60,12 @@ bool LineSweep::findSteps(float top, float bottom) {
         placeBetween(piece.top, piece.bottom, std::max<std::size_t>(std::size_t(share * float(count)), 1));
     }
     return false;
+}
+
+std::size_t LineSweep::stepsInRow() const {
+    const double ends = double(contentChanges_.size()) / double(cuts_.size() + 1);
+    const double most = cutsInRow / costOfCut_ / (meanCut_ + 1);
+    return std::clamp(std::size_t(most * (1 + moreForEnds * ends)), leastSteps, mostSteps);
 }
 
 /// Cuts the row where chains begin and end.

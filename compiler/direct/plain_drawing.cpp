@@ -49,7 +49,7 @@ struct ThreadState {
                 const std::shared_ptr<const asset::Images>& images, const asset::View& view)
         : state(picture),
           pixels(picture, bitmaps, images, view),
-          sweep(chains, state, pixels, picture.layers.size(), view.width),
+          sweep(picture, chains, state, pixels, view.width),
           scanner(view) {}
 
     RegionState state;

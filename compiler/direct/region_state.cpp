@@ -130,7 +130,7 @@ bool RegionState::stackSolids(glm::vec4& color, Region& region) {
             return true;
         isSolid = shade.kind == Shade::Solid;
         isInGroup = shade.group != noIndex;
-        isDeep = ++looked > shallow && mayBeInTree();
+        isDeep = ++looked > shallow && hasOnlyColors();
         if (!isSolid || isInGroup || isDeep)
             return false;
         sum += light * shade.color;
@@ -180,7 +180,7 @@ bool RegionState::stackInGroups(glm::vec4& color, Region& region) {
             return true;
         isSolid = shade.kind == Shade::Solid;
         looked += layersOfGrouped;
-        isDeep = looked > shallow && mayBeInTree();
+        isDeep = looked > shallow && hasOnlyColors();
         if (!isSolid || isDeep)
             return false;
         if (shade.group != open_.back().group) {

@@ -50,7 +50,7 @@ public:
     /// Whether a stack of so many layers is deep.
     static bool isDeep(std::size_t layers) { return layers > shallow; }
     /// All stacks that come are taken to be deep.
-    void preferDeep(bool prefers) { prefersTree_ = prefers && mayBeInTree(); }
+    void preferDeep(bool prefers) { prefersTree_ = prefers && hasOnlyColors(); }
 
     /// Stands for the set of layers that are inside.
     std::uint64_t key() const { return key_; }
@@ -112,6 +112,8 @@ public:
     std::span<const PaintProgram> programs() const { return programs_; }
     /// Whether paints may be programs.
     bool hasPrograms() const { return hasPrograms_; }
+    /// Whether all paints are colours, and no layer is clipped or masked.
+    bool hasOnlyColors() const { return !hasPrograms_ && !hasClips_; }
     /// Whether the programs that are remembered are as large as they should become.
     bool remembersMuch() const { return programSteps_ > mostProgramSteps; }
     /// A paint of its own.
@@ -172,8 +174,6 @@ private:
     Region compute();
     bool stackSolids(glm::vec4& color, Region& region);
     bool stackInGroups(glm::vec4& color, Region& region);
-    /// Whether nothing but solid colours shows, and all of each layer.
-    bool mayBeInTree() const { return !hasPrograms_ && !hasClips_; }
     void stackInTree(glm::vec4& color, Region& region);
     void closeDownTo(std::uint32_t group);
     void openUpTo(std::uint32_t group);

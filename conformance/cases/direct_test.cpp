@@ -216,6 +216,35 @@ TEST(DrawnOnce, DensePicturesAreTheMeansOfLargerOnes) {
     EXPECT_LE(differenceFromLarger(sceneOf(clippedRectangles(5000)), 4), 1.0);
 }
 
+/// Lines of a grid, or anywhere, by twenty or more to a pixel, each of a colour of its own; `inGroup`
+/// together in a translucent group.
+std::string manyLines(int count, bool isGrid, int inGroup) {
+    Numbers numbers;
+    std::string content;
+    for (int i = 0; i < count; ++i) {
+        const double at = 64 * (i + 0.5) / count, x1 = numbers.between(), y1 = numbers.between(),
+                     x2 = numbers.between(), y2 = numbers.between();
+        const unsigned color = numbers.color();
+        if (inGroup > 0 && i % inGroup == 0)
+            content += "<g opacity=\".6\">";
+        content += isGrid && i % 2 == 0 ? fmt::format("<path d=\"M0,{0:.5f}H64\"", at)
+                   : isGrid             ? fmt::format("<path d=\"M{0:.5f},0V64\"", at)
+                            : fmt::format("<path d=\"M{:.3f},{:.3f}L{:.3f},{:.3f}\"", x1, y1, x2, y2);
+        content += fmt::format(" stroke=\"#{:06x}\" stroke-opacity=\".4\"/>", color);
+        if (inGroup > 0 && i % inGroup == inGroup - 1)
+            content += "</g>";
+    }
+    return content;
+}
+
+/// Too much to follow: asked for at places.
+TEST(DrawnOnce, ManyLayersAreTheMeansOfLargerPictures) {
+    for (const int inGroup : {0, 1, 4})
+        for (const bool isGrid : {false, true})
+            EXPECT_LE(differenceFromLarger(sceneOf(manyLines(2400, isGrid, inGroup)), 4), 1.5)
+                << inGroup << ", " << isGrid;
+}
+
 /// Beside what they clip, round it, round it with a hole there, and across it.
 TEST(DrawnOnce, ClipsThatDoNotMeetWhatTheyClipLetAllOfItThroughOrNothing) {
     for (const char* clip :

@@ -1,0 +1,535 @@
+#include "compiler/direct/sampled_rows.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <vtm/limits/limits.hpp>
+#include "compiler/containers/small_sort.hpp"
+
+namespace vtm::compiler {
+namespace {
+
+/// A pixel is so many squares wide and high that places of so many squares are asked in a picture like the
+/// row before. A chain that is looked at takes a part of the time, and so does a square all of which a layer
+/// covers.
+constexpr float squaresInPicture = 1.2e7f, mostAlong = 8, look = 1.0f / 8, coveredSquare = 1.0f / 16;
+/// Where a layer has more chains for each pixel, they are met along rows of places instead, which takes this
+/// long.
+constexpr std::size_t denseInPixel = 32;
+constexpr float denseLook = 1.0f / 6;
+/// There, an edge that crosses more squares in a row is nearly level.
+constexpr float levelSlope = 16;
+/// Winding numbers by one chain take so much of the time that a square does.
+constexpr float askedOfChain = 1.0f / 4;
+/// So many touches are sorted by digits.
+constexpr std::size_t manyTouches = 64;
+/// So many chains before one is looked at, its vertices are fetched.
+constexpr std::size_t ahead = 16;
+/// Of a row: the line of a chain that is less high is not known well.
+constexpr float leastHeight = 1.0f / 1024;
+/// So many pieces are kept before those on the left are forgotten, and so many for each chain of the square.
+constexpr std::size_t keptPieces = 64, keptForChain = 8;
+
+}  // namespace
+
+SampledRows::SampledRows(const LoweredScene& picture, const ViewChains& chains, RegionState& state, int width)
+    : SampledRows(SolidLayers(picture), chains, state, width) {}
+
+SampledRows::SampledRows(SolidLayers layers, const ViewChains& chains, RegionState& state, int width)
+    : chains_(chains),
+      vertices_(chains.vertices()),
+      state_(state),
+      width_(width),
+      layers_(std::move(layers.layers)),
+      lights_(std::move(layers.groups)),
+      sums_(std::size_t(width)) {}
+
+void SampledRows::run(std::span<const std::uint32_t> numbers, float top, float bottom,
+                      std::vector<asset::Chord>& chords) {
+    cuts_.clear();
+    int along = 1;
+    std::size_t chainsBefore = 0;
+    while (top < bottom) {
+        limits::check();
+        const float end = std::min(std::floor(top) + 1, bottom);
+        take(numbers, top, end);
+        if (cuts_.size() > 2 * chainsBefore) {  // the row before tells little of this one
+            const std::vector<Cut> before = cuts_;
+            along = drawPixels(top, end, 1);
+            std::ranges::fill(sums_, glm::vec4(0));
+            cuts_ = before;
+        }
+        chainsBefore = cuts_.size();
+        along = drawPixels(top, end, along);
+        finishRow(top, end, chords);
+        top = end;
+    }
+}
+
+/// A row of pixels, as many squares wide and high. Returns how many the next row's should be.
+int SampledRows::drawPixels(float top, float bottom, int along) {
+    const float height = (bottom - top) / float(along);
+    asked_ = covered_ = 1;
+    for (int k = 0; k < along; ++k) {
+        row_ = {top + float(k) * height, top + float(k + 1) * height, float(along)};
+        drawRow();
+    }
+    // With more squares along a pixel, chains touch as many times more, and there are the square of it.
+    const float most = squaresInPicture / float(chains_.height()), by = float(along);
+    return int(std::clamp(std::min(most * by / asked_, std::sqrt(most / covered_) * by), 1.0f, mostAlong));
+}
+
+std::size_t SampledRows::endOfLayer(std::size_t first) const {
+    std::size_t end = first;
+    while (end < cuts_.size() && cuts_[end].layer == cuts_[first].layer)
+        ++end;
+    return end;
+}
+
+bool SampledRows::isDense(std::size_t chains) const { return chains > denseInPixel * std::size_t(width_); }
+
+// ---- Chains ---------------------------------------------------------------------------------------
+
+/// Those that begin above the bottom come, those that end above the top go.
+void SampledRows::take(std::span<const std::uint32_t>& toCome, float top, float bottom) {
+    begun_.clear();
+    std::size_t begun = 0;
+    for (; begun < toCome.size() && chains_[toCome[begun]].top < bottom; ++begun) {
+        const DownChain& chain = chains_[toCome[begun]];
+        if (chain.bottom > top && layers_[chain.layer].color.w > 0)
+            begun_.push_back({.a = vertices_[chain.first],
+                              .at = chain.first,
+                              .last = chain.end - 1,
+                              .layer = chain.layer,
+                              .winding = chain.winding});
+    }
+    toCome = toCome.subspan(begun);
+    const auto isBefore = [](const Cut& a, const Cut& b) { return a.layer > b.layer; };
+    std::ranges::stable_sort(begun_, isBefore);
+    merged_.clear();
+    auto next = begun_.begin();
+    for (const Cut& cut : cuts_) {
+        if (cut.edgeBottom <= top && vertices_[cut.last].y <= top)
+            continue;
+        for (; next != begun_.end() && isBefore(*next, cut); ++next)
+            merged_.push_back(*next);
+        merged_.push_back(cut);
+    }
+    merged_.insert(merged_.end(), next, begun_.end());
+    cuts_.swap(merged_);
+}
+
+/// That at y, the first or the last.
+void SampledRows::findEdge(Cut& cut, float y) const {
+    while (cut.at + 1 < cut.last && vertices_[cut.at + 1].y <= y)
+        ++cut.at;
+    const glm::vec2 a = vertices_[cut.at], b = vertices_[cut.at + 1];
+    cut.a = a;
+    cut.slope = a.y < b.y ? (b.x - a.x) / (b.y - a.y) : 0;
+    cut.edgeBottom = b.y;
+}
+
+/// Chains' vertices lie far from each other.
+void SampledRows::fetchAhead(std::size_t number) const {
+    if (number + ahead < cuts_.size() && cuts_[number + ahead].edgeBottom < row_.bottom)
+        __builtin_prefetch(vertices_ + cuts_[number + ahead].at + 1);
+}
+
+void SampledRows::drawRow() {
+    const auto squares = std::size_t(width_) * std::size_t(row_.along);
+    lights_.begin(std::int32_t(squares));
+    for (std::size_t i = 0, end = 0; i < cuts_.size() && !lights_.areClosed(); i = end) {
+        const std::uint32_t layer = cuts_[i].layer;
+        end = endOfLayer(i);
+        if (isDense(end - i)) {
+            drawDense(std::span(cuts_).subspan(i, end - i), layers_[layer]);
+            continue;
+        }
+        touches_.clear();
+        asked_ += look * float(end - i);
+        for (; i < end; ++i) {
+            fetchAhead(i);
+            lookAt(std::uint32_t(i));
+        }
+        if (!touches_.empty())
+            drawTouched(layers_[layer]);
+    }
+    const std::span<const glm::vec4> colors = lights_.finish();
+    for (std::size_t i = 0; i < squares; ++i)
+        sums_[i / std::size_t(row_.along)] += (row_.bottom - row_.top) / row_.along * colors[i];
+}
+
+/// Many chains meet each square: they are met along rows of places.
+void SampledRows::drawDense(std::span<Cut> cuts, const Layer& layer) {
+    if (!steps_ || steps_->squares() != lights_.squares())
+        steps_.emplace(lights_.squares());
+    asked_ += denseLook * float(cuts.size()) + float(lights_.squares());
+    for (Cut& cut : cuts) {
+        fetchAhead(std::size_t(&cut - cuts_.data()));
+        if (cut.edgeBottom <= row_.top)
+            findEdge(cut, row_.top);
+        addSteps(cut);
+        while (cut.edgeBottom < row_.bottom && cut.at + 1 < cut.last) {
+            findEdge(cut, cut.edgeBottom);
+            addSteps(cut);
+        }
+    }
+    lights_.enter(layer.group);
+    steps_->takeAll([&](std::int32_t square, const PlaceWindings& windings) {
+        if (lights_.nextOpen(square) == square)
+            lights_.cover(square, layer, windings);
+    });
+}
+
+/// The edge of the chain.
+void SampledRows::addSteps(const Cut& cut) {
+    const auto rowAt = [&](float y) {  // the first whose middle is not above it
+        return int(std::ceil(std::clamp(row_.heightOf(y), 0.0f, 1.0f) * placesAlong - 0.5f));
+    };
+    const int first = rowAt(cut.a.y), end = rowAt(cut.edgeBottom);
+    if (first >= end)
+        return;
+    const glm::vec2 a = row_.inSquares(cut.a);
+    const float slope = row_.inSquares(cut.slope), y = (float(first) + 0.5f) / placesAlong;
+    if (std::abs(slope) > levelSlope) {
+        const float from = a.x + (float(first) / placesAlong - a.y) * slope,
+                    to = a.x + (float(end) / placesAlong - a.y) * slope;
+        return steps_->add(first, end, PlacedEdge(a, slope), std::min(from, to), std::max(from, to),
+                           cut.winding);
+    }
+    float x = a.x + (y - a.y) * slope;
+    for (int r = first; r < end; ++r, x += slope / placesAlong)
+        steps_->add(r, x, cut.winding);
+}
+
+// ---- Squares --------------------------------------------------------------------------------------
+
+/// Appends what the chain touches in the row, if it is in it.
+void SampledRows::lookAt(std::uint32_t number) {
+    const auto [top, bottom, along] = row_;
+    Cut& cut = cuts_[number];
+    if (cut.edgeBottom <= top)
+        findEdge(cut, top);
+    if (cut.edgeBottom <= top || cut.a.y >= bottom)
+        return;
+    const float begin = std::max(cut.a.y, top), from = cut.xAt(begin);
+    const bool isStraight = cut.edgeBottom >= bottom;
+    float end = bottom, to = isStraight ? cut.xAt(bottom) : from;
+    float left = std::min(from, to), right = std::max(from, to);
+    for (std::uint32_t at = cut.at; !isStraight && at < cut.last && vertices_[at].y < bottom; ++at) {
+        const glm::vec2 a = vertices_[at], b = vertices_[at + 1];
+        end = std::min(b.y, bottom);
+        to = b.y <= bottom ? b.x : a.x + (bottom - a.y) * ((b.x - a.x) / (b.y - a.y));
+        left = std::min(left, to);
+        right = std::max(right, to);
+    }
+    const auto square = [&](float x) {  // rounded down
+        return std::int32_t(std::clamp(x * along + 1, 0.0f, float(lights_.squares() + 1))) - 1;
+    };
+    touches_.push_back({square(left), square(right), number, cut.winding, begin, end,
+                        RowLine{from * along, to * along}, begin <= top && end >= bottom, isStraight});
+}
+
+void SampledRows::sortTouches() {
+    if (touches_.size() < manyTouches)
+        return sortStably(touches_.begin(), touches_.end(),
+                          [](const Touch& a, const Touch& b) { return a.first < b.first; });
+    order_.clear();
+    for (const Touch& touch : touches_)
+        order_.push_back({float(touch.first), std::uint32_t(order_.size())});
+    sortPlaces(order_, spare_);
+    arranged_.clear();
+    for (const Placed& p : order_)
+        arranged_.push_back(touches_[p.number]);
+    touches_.swap(arranged_);
+}
+
+/// The layer that the touches are of. Between its chains that begin or end in the row there may be level
+/// sides, of which no chain tells: there, all squares are looked at.
+void SampledRows::drawTouched(const Layer& layer) {
+    std::int32_t first = lights_.squares(), last = -1, lastEnd = -1;
+    for (const Touch& touch : touches_) {
+        first = std::min(first, touch.first);
+        last = std::max(last, touch.last);
+        if (!touch.spans)
+            lastEnd = std::max(lastEnd, touch.last);
+    }
+    if (lights_.nextOpen(std::max(first, 0)) > last)
+        return;
+    lights_.enter(layer.group);
+    sortTouches();
+    std::int32_t winding = 0, covered = 0;
+    for (std::size_t i = 0, end = 0; i < touches_.size(); i = end) {
+        const std::int32_t begin = touches_[i].first;
+        if (layer.isInside(winding))
+            drawBetween(covered, begin, layer);
+        covered = begin;
+        std::int32_t after = winding;
+        for (; end < touches_.size() && touches_[end].first <= covered; ++end) {
+            const Touch& touch = touches_[end];
+            covered = std::max(covered, (touch.spans ? touch.last : lastEnd) + 1);
+            after += touch.spans ? touch.winding : 0;
+        }
+        drawRun({std::span(touches_).subspan(i, end - i), std::max(begin, 0),
+                 std::min(covered, lights_.squares()), winding, after},
+                layer);
+        winding = after;
+        covered = std::max(covered, 0);
+    }
+}
+
+/// Squares [first, end), all inside.
+void SampledRows::drawBetween(std::int32_t first, std::int32_t end, const Layer& layer) {
+    for (std::int32_t i = lights_.nextOpen(first); i < end; i = lights_.nextOpen(i + 1))
+        cover(i, layer);
+}
+
+void SampledRows::cover(std::int32_t square, const Layer& layer) {
+    covered_ += coveredSquare;
+    lights_.cover(square, layer);
+}
+
+void SampledRows::drawRun(const Run& run, const Layer& layer) {
+    pieces_.clear();
+    active_.clear();
+    bool hasEnds = false;  // on the left: onLeft_ is by height
+    std::int32_t winding = run.windingLeft;
+    std::size_t next = 0;
+    for (std::int32_t square = lights_.nextOpen(run.first); square < run.end;
+         square = lights_.nextOpen(square + 1)) {
+        for (; next < run.touches.size() && run.touches[next].first <= square; ++next)
+            active_.push_back(&run.touches[next]);
+        leaveBehind(square, winding, hasEnds);
+        const std::size_t count = active_.size();
+        if (!hasEnds && count == 0) {
+            if (layer.isInside(winding))
+                cover(square, layer);
+            continue;
+        }
+        if (!hasEnds && count == 1 && drawOne(*active_[0], square, winding, layer))
+            continue;
+        if (!hasEnds && count == 2 &&
+            (isDarkBetween(*active_[0], *active_[1], square, winding, layer) ||
+             isDarkBetween(*active_[1], *active_[0], square, winding, layer)))
+            continue;
+        // Where a chain begins or ends, the layer may still be on one side of it only.
+        const bool isLeftOfIt = count == 1 && next == run.touches.size() && !layer.isInside(run.windingRight),
+                   isRightOfIt = count == 1 && next == 1 && !layer.isInside(run.windingLeft);
+        if ((isLeftOfIt && apartFrom(lights_.darkLeft(square), *active_[0], square).most <= 0) ||
+            (isRightOfIt && apartFrom(lights_.darkRight(square), *active_[0], square).least >= 0))
+            continue;
+        if (hasEnds)
+            for (std::size_t i = 0; i < onLeft_.size(); ++i)
+                windings_[i] = std::int16_t(onLeft_[i] + winding);
+        else
+            windings_.fill(std::int16_t(winding));
+        asked_ += 1 + askedOfChain * float(count);
+        for (Touch* touch : active_)
+            addTouch(*touch, square);
+        if (lights_.cover(square, layer, windings_) && (isLeftOfIt || isRightOfIt))
+            keepDark(square, *active_[0], isLeftOfIt);
+    }
+}
+
+/// What ends on the left of the square is added to the winding numbers there.
+void SampledRows::leaveBehind(std::int32_t square, std::int32_t& winding, bool& hasEnds) {
+    for (std::size_t i = 0; i < active_.size();) {
+        const Touch& touch = *active_[i];
+        if (touch.last >= square) {
+            ++i;
+            continue;
+        }
+        if (touch.spans) {
+            winding += touch.winding;
+        } else {
+            if (!std::exchange(hasEnds, true))
+                onLeft_.fill(0);
+            PlaceRange(row_.heightOf(touch.top), row_.heightOf(touch.bottom)).add(onLeft_, touch.winding);
+        }
+        active_[i] = active_.back();
+        active_.pop_back();
+    }
+    forgetPieces();
+}
+
+/// A square that a single chain touches. False if it does not span the row.
+bool SampledRows::drawOne(Touch& touch, std::int32_t square, std::int32_t winding, const Layer& layer) {
+    if (!touch.spans)
+        return false;
+    const bool isLeft = layer.isInside(winding), isRight = layer.isInside(winding + touch.winding);
+    if (isLeft == isRight) {
+        if (isLeft)
+            cover(square, layer);
+        return true;
+    }
+    if (isLeft ? apartFrom(lights_.darkLeft(square), touch, square).most <= 0
+               : apartFrom(lights_.darkRight(square), touch, square).least >= 0)
+        return true;
+    ++asked_;
+    bool isDark = false;
+    if (touch.isStraight) {
+        findPieces(touch);
+        isDark = lights_.coverBeside(square, layer, pieces_[touch.firstPiece].edge, isLeft);
+    } else {
+        windings_.fill(std::int16_t(winding));
+        addTouch(touch, square);
+        isDark = lights_.cover(square, layer, windings_);
+    }
+    if (isDark)
+        keepDark(square, touch, isLeft);
+    return true;
+}
+
+/// Whether the layer is nowhere but between two chains that span the row, and it is dark there.
+bool SampledRows::isDarkBetween(const Touch& left, const Touch& right, std::int32_t square,
+                                std::int32_t winding, const Layer& layer) const {
+    return left.spans && right.spans && left.isStraight && right.isStraight &&
+           left.line.enter <= right.line.enter && left.line.leave <= right.line.leave &&
+           !layer.isInside(winding) && !layer.isInside(winding + left.winding + right.winding) &&
+           (apartFrom(lights_.darkLeft(square), right, square).most <= 0 ||
+            apartFrom(lights_.darkRight(square), left, square).least >= 0);
+}
+
+/// Calls visit(edge's upper end, its lower end) for the parts of a chain's edges in the square, from the top.
+template <class Visit>
+void SampledRows::visitParts(const Touch& touch, std::int32_t square, const Visit& visit) const {
+    const Cut& cut = cuts_[touch.cut];
+    const auto left = float(square), right = float(square + 1);
+    for (std::uint32_t at = cut.at; at < cut.last && vertices_[at].y < row_.bottom; ++at) {
+        const glm::vec2 a = row_.inSquares(vertices_[at]), b = row_.inSquares(vertices_[at + 1]), d = b - a;
+        if (d.y <= 0 || b.y <= 0 || std::max(a.x, b.x) < left || std::min(a.x, b.x) > right)
+            continue;
+        const float toLeft = (left - a.x) / d.x, toRight = (right - a.x) / d.x, toTop = -a.y / d.y,
+                    toBottom = (1 - a.y) / d.y;
+        const bool isUpright = d.x == 0;
+        const float begin = std::max({0.0f, toTop, isUpright ? 0.0f : std::min(toLeft, toRight)}),
+                    end = std::min({1.0f, toBottom, isUpright ? 1.0f : std::max(toLeft, toRight)});
+        if (begin < end)
+            visit(a + begin * d, a + end * d);
+    }
+}
+
+/// As far as they are in the square.
+SampledRows::Apart SampledRows::apartFrom(const RowLine& line, const Touch& touch,
+                                          std::int32_t square) const {
+    if (touch.isStraight && touch.spans) {
+        const float enter = touch.line.enter - line.enter, leave = touch.line.leave - line.leave;
+        return {std::min(enter, leave), std::max(enter, leave)};
+    }
+    Apart apart{INFINITY, -INFINITY};
+    bool isThere = false;
+    visitParts(touch, square, [&](glm::vec2 a, glm::vec2 b) {
+        isThere = true;
+        for (const glm::vec2 p : {a, b}) {
+            apart.least = std::min(apart.least, p.x - line.at(p.y));
+            apart.most = std::max(apart.most, p.x - line.at(p.y));
+        }
+    });
+    return isThere ? apart : Apart{-INFINITY, INFINITY};
+}
+
+/// All is dark on one side of the chain, as far as it is in the square.
+void SampledRows::keepDark(std::int32_t square, const Touch& touch, bool isLeft) {
+    RowLine line = touch.line;
+    if (!touch.isStraight || !touch.spans) {
+        glm::vec2 first(0), last(0);
+        bool isFirst = true;
+        visitParts(touch, square, [&](glm::vec2 a, glm::vec2 b) {
+            if (std::exchange(isFirst, false))
+                first = a;
+            last = b;
+        });
+        // Above and below a chain that begins or ends in the square, no place may be on that side of the
+        // line.
+        const auto isBeside = [&](float x) { return isLeft ? x <= float(square) : x >= float(square + 1); };
+        const bool begins = touch.top > row_.top && first.y <= row_.heightOf(touch.top),
+                   ends = touch.bottom < row_.bottom && last.y >= row_.heightOf(touch.bottom);
+        if (last.y - first.y < leastHeight || (begins && !isBeside(first.x)) || (ends && !isBeside(last.x)))
+            return;
+        const float slope = (last.x - first.x) / (last.y - first.y);
+        line = {first.x - first.y * slope, last.x + (1 - last.y) * slope};
+    }
+    const Apart apart = apartFrom(line, touch, square);
+    if (isLeft)
+        lights_.keepDarkLeft(square, line.movedBy(apart.least));
+    else
+        lights_.keepDarkRight(square, line.movedBy(apart.most));
+}
+
+// ---- Places ---------------------------------------------------------------------------------------
+
+void SampledRows::findPieces(Touch& touch) {
+    if (touch.endPiece > touch.firstPiece)
+        return;
+    touch.firstPiece = std::uint32_t(pieces_.size());
+    const auto add = [&](glm::vec2 a, float slope, float bottom) {
+        const glm::vec2 from = row_.inSquares(a);
+        const float perY = row_.inSquares(slope), to = row_.heightOf(bottom);
+        const float enter = from.x + (std::max(from.y, 0.0f) - from.y) * perY,
+                    leave = from.x + (std::min(to, 1.0f) - from.y) * perY;
+        pieces_.push_back({PlacedEdge(from, perY), PlaceRange(from.y, to),
+                           a.y <= row_.top && bottom >= row_.bottom, std::min(enter, leave),
+                           std::max(enter, leave)});
+    };
+    const Cut& cut = cuts_[touch.cut];
+    add(cut.a, cut.slope, cut.edgeBottom);
+    for (std::uint32_t at = cut.at + 1; !touch.isStraight && at < cut.last && vertices_[at].y < row_.bottom;
+         ++at) {
+        const glm::vec2 a = vertices_[at], b = vertices_[at + 1];
+        if (a.y < b.y)
+            add(a, (b.x - a.x) / (b.y - a.y), b.y);
+    }
+    touch.endPiece = std::uint32_t(pieces_.size());
+}
+
+/// Those of chains that lie on the left, once they are many.
+void SampledRows::forgetPieces() {
+    if (pieces_.size() < keptPieces + keptForChain * active_.size())
+        return;
+    kept_.clear();
+    for (Touch* touch : active_) {
+        const auto first = pieces_.begin() + touch->firstPiece, end = pieces_.begin() + touch->endPiece;
+        touch->firstPiece = std::uint32_t(kept_.size());
+        kept_.insert(kept_.end(), first, end);
+        touch->endPiece = std::uint32_t(kept_.size());
+    }
+    pieces_.swap(kept_);
+}
+
+/// To windings_.
+void SampledRows::addTouch(Touch& touch, std::int32_t square) {
+    findPieces(touch);
+    const auto left = float(square), right = float(square + 1);
+    for (const Piece& piece :
+         std::span(pieces_).subspan(touch.firstPiece, touch.endPiece - touch.firstPiece)) {
+        if (piece.left >= right)
+            continue;
+        if (piece.spans)
+            piece.edge.add(windings_, square, touch.winding);
+        else if (piece.right < left)
+            piece.range.add(windings_, touch.winding);
+        else
+            piece.edge.add(windings_, square, touch.winding, piece.range);
+    }
+}
+
+// ---- Colours --------------------------------------------------------------------------------------
+
+/// The pixels' colours as paints.
+void SampledRows::finishRow(float top, float bottom, std::vector<asset::Chord>& chords) {
+    const float perHeight = 1 / (bottom - top);
+    RegionPaint left = 0;
+    glm::vec4 before(0);
+    for (int x = 0; x <= width_; ++x) {
+        const glm::vec4 sum = x < width_ ? std::exchange(sums_[std::size_t(x)], glm::vec4(0)) : glm::vec4(0);
+        const glm::vec4 color = perHeight * sum;
+        if (color == before)
+            continue;
+        const RegionPaint right = state_.paintOf(color);
+        chords.push_back({{float(x), top}, {float(x), bottom}, left, right});
+        left = right;
+        before = color;
+    }
+}
+
+}  // namespace vtm::compiler
