@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <ranges>
 #include <utility>
 
@@ -36,12 +35,6 @@ constexpr int rowsToTryAgain = 7;
 constexpr std::size_t ahead = 16;
 /// On a row of squares so many to a pixel.
 constexpr std::int32_t squaresInAPixel = 16;
-
-/// Where so many edges cross others in all columns but an eighth, lines are looked at instead of steps.
-constexpr std::uint32_t manyCrossed = 4;
-constexpr std::ptrdiff_t fewUntangled = 8;
-/// So many chains on the lines of a row, and at least so many lines; and so many places of a pixel on each.
-constexpr std::size_t cutsOnLines = 500'000, leastLines = 4, placesInAPixel = 64;
 
 /// Chains that meet a row, in the mean.
 double meanCutOf(const ViewChains& chains) {
@@ -104,18 +97,6 @@ bool LineSweep::isDrawnByContent(std::span<const std::uint32_t> numbers, float t
     return placeByContent(top, bottom, stepsInRow());
 }
 
-bool LineSweep::isTangled(std::span<const std::uint32_t> numbers, float top) {
-    begin(numbers);
-    if (!isOneColor_)
-        return false;
-    const float bottom = std::floor(top) + 1;
-    take(top, bottom);
-    findSteps(top, bottom);
-    lookAndSort(steps_.front());
-    judge();
-    return isTangled_;
-}
-
 void LineSweep::begin(std::span<const std::uint32_t> numbers) {
     if (meanCut_ == 0 && !numbers.empty()) {
         meanCut_ = meanCutOf(chains_);
@@ -130,7 +111,6 @@ void LineSweep::begin(std::span<const std::uint32_t> numbers) {
     smallInBand_ = smallCutsInBand;
     costOfCut_ = 1;
     isMeasured_ = isOneColor_;
-    isJudged_ = isTangled_ = false;
     rowsShown_ = 0;
     endCuts_ = endCutsInBand;
 }
@@ -171,8 +151,6 @@ void LineSweep::lookInside(const DownChain& chain) {
 
 void LineSweep::row(float top, float bottom) {
     take(top, bottom);
-    if (isTangled_)
-        return drawLines(top, bottom);
     hides_ = rowsShown_ == 0 && mayHide();
     rowsShown_ = std::max(rowsShown_ - 1, 0);
     remembers_ = state_.hasPrograms() && !state_.remembersMuch();
@@ -186,23 +164,13 @@ void LineSweep::row(float top, float bottom) {
     auto stepsLeft = std::size_t(asset::bandRows - std::fmod(top, float(asset::bandRows))) * steps_.size();
     const std::size_t share = 8 * smallInBand_ / std::max<std::size_t>(stepsLeft, 1);
     drawn_ = top;
-    rowReach_ = 0;
-    if (isOneColor_)
-        atTop_ = cuts_;
     for (const Step& step : steps_) {
         const std::size_t may = isByContent ? 0 : std::min(share, smallInBand_);
         smallSteps_ = may;
         endCutsInStep_ = endCuts_ / std::max<std::size_t>(stepsLeft, 1);
         stepsLeft -= stepsLeft > 0;
         draw(step);
-        if (isTangled_)
-            return drawLines(top, bottom);
         smallInBand_ -= may - smallSteps_;
-    }
-    if (isOneColor_ && rowReach_ > levelReach) {
-        cuts_.swap(atTop_);
-        drawLevelColumns(top, bottom);
-        cuts_.swap(atTop_);
     }
     finishRow(top, bottom);
 }
@@ -418,10 +386,6 @@ void LineSweep::lookAndSort(const Step& step) {
 
 void LineSweep::draw(const Step& step) {
     lookAndSort(step);
-    if (isOneColor_ && !isJudged_)
-        judge();
-    if (isTangled_)
-        return;
     winding_ = 0;
     endedColumns_.clear();
     if (hasSpecial_ && mayDrawEnds())
@@ -446,9 +410,6 @@ void LineSweep::drawChains(const Step& step) {
         drawByParts(step);
     else
         cross(sorted_, step, {}, -INFINITY, INFINITY);
-    if (smallSteps_ == 0 && hasSpecial_ && isOneColor_)
-        for (const Seen& seen : sorted_)
-            rowReach_ = std::max(rowReach_, (seen.right - seen.left) / step.height);
 }
 
 /// Chains that reach into the same columns, together.
@@ -499,8 +460,6 @@ void LineSweep::drawInSteps(std::span<const Seen> chains, const Step& step, Show
     }
     const auto wanted = std::clamp(int(reach / mostReach) + 1, hasEnds ? 4 : 1, mostSmallSteps);
     const auto count = int(std::min(std::size_t(wanted), smallSteps_ / chains.size()));
-    if (count < wanted)
-        rowReach_ = std::max(rowReach_, reach / step.height);
     if (count <= 1) {
         left = cross(chains, step, left, begin, end);
         return;
@@ -711,67 +670,6 @@ void LineSweep::addOutline(std::span<const Seen> chains, float height, std::vect
         addAlong(shares, isUpright ? seen.x : seen.from, isUpright ? seen.x : seen.to,
                  isInside ? height : -height);
     });
-}
-
-/// Whether so many edges of one colour cross in the step that hardly any covers what it covers in its middle.
-void LineSweep::judge() {
-    isJudged_ = true;
-    std::vector<std::uint32_t> crossed(shares_.size());
-    std::vector<bool> isChanged(shares_.size());
-    crossOutline(sorted_, [&](const Seen& seen, bool isCrossed, bool) {
-        const auto column = std::size_t(std::clamp(seen.x, 0.0f, float(width_)));
-        crossed[column] += isCrossed;
-        isChanged[column] = true;
-    });
-    winding_ = 0;
-    const auto changed = std::ranges::count(isChanged, true),
-               tangled = std::ranges::count_if(crossed, [](auto count) { return count >= manyCrossed; });
-    isTangled_ = tangled > 0 && tangled >= changed - changed / fewUntangled;
-}
-
-/// Coverage along lines.
-void LineSweep::drawLines(float top, float bottom) {
-    limits::check();
-    const auto count = std::clamp(cutsOnLines / (cuts_.size() + 1), leastLines, mostSteps);
-    const float height = (bottom - top) / float(count), most = float(width_);
-    const std::size_t placesOnLine = std::size_t(width_) * placesInAPixel + 1;
-    places_.resize(std::max(places_.size(), count * placesOnLine));
-    // From line to line a place is moved by the golden section, since upright edges meet all of them alike.
-    std::array<float, mostSteps> ahead;
-    for (std::size_t k = 0; k < count; ++k)
-        ahead[k] = std::fmod(float(k) * std::numbers::phi_v<float>, 1.0f);
-    for (std::size_t i = 0; i < cuts_.size(); ++i) {
-        fetchAhead(i, bottom);
-        Cut& cut = cuts_[i];
-        for (std::size_t k = 0; k < count; ++k) {
-            const float y = top + (float(k) + 0.5f) * height;
-            if (y >= cut.edgeBottom)
-                findEdge(cut, y);
-            if (y < cut.a.y || y >= cut.edgeBottom)
-                continue;
-            const float x = std::clamp(cut.a.x + (y - cut.a.y) * cut.slope, 0.0f, most);
-            const auto place = std::min(std::size_t(x * placesInAPixel + ahead[k]), placesOnLine - 1);
-            places_[k * placesOnLine + place] += std::int16_t(cut.winding);
-        }
-    }
-    for (std::size_t k = 0; k < count; ++k)
-        addLine(&places_[k * placesOnLine], height);
-    finishRow(top, bottom);
-}
-
-/// What is inside along a line, whose places are cleared.
-void LineSweep::addLine(std::int16_t* places, float height) {
-    const std::int32_t mask = isEvenOdd_ ? 1 : -1;
-    std::int32_t winding = 0, before = 0;
-    for (std::size_t column = 0; column < std::size_t(width_); ++column) {
-        std::int32_t inside = 0;
-        for (std::size_t i = 0; i < placesInAPixel; ++i) {
-            winding += std::exchange(places[column * placesInAPixel + i], std::int16_t{0});
-            inside += (winding & mask) != 0;
-        }
-        shares_[column] += height / placesInAPixel * float(inside - std::exchange(before, inside));
-    }
-    places[std::size_t(width_) * placesInAPixel] = 0;
 }
 
 void LineSweep::add(const PaintChange& change, const Step& step) {

@@ -6,8 +6,6 @@
 /// another: then it counts as it is in the middle. Where chains begin, end or are nearly level, the few that
 /// are near take smaller steps. In each step the changes of paint add up, since outlines are closed.
 ///
-/// Where most edges of a single colour cross others in a step, coverage is summed along lines instead.
-///
 /// Paints that are programs are remembered, and their edges are chords, as elsewhere; where that would be too
 /// many, they are composited in each pixel that their regions reach, and forgotten.
 ///
@@ -48,16 +46,11 @@ public:
     /// Whether the row from there on has level sides, and so few different parts between them that each is
     /// drawn as it is.
     bool isDrawnByContent(std::span<const std::uint32_t> numbers, float top);
-    /// Whether, in the row from there on, so many edges of one colour cross in each step that it is drawn
-    /// along lines anyway.
-    bool isTangled(std::span<const std::uint32_t> numbers, float top);
 
 private:
     /// An edge that reaches over more columns in a step is nearly level: what it misplaces is seen.
     static constexpr float mostReach = 0.25f;
-    /// An edge of one colour that reaches over more columns in a row is misplaced in too many of them.
-    static constexpr float levelReach = 16;
-    /// Of a row, and lines too.
+    /// Of a row.
     static constexpr std::size_t mostSteps = 64;
     /// Chains looked at where layers begin or end, a band: what they may cost.
     static constexpr std::size_t endCutsInBand = 16 * 600'000;
@@ -160,13 +153,6 @@ private:
         int end(int width) const { return int(std::min(right, float(width))); }
     };
 
-    /// Columns beside each other, of one colour.
-    struct LevelColumns {
-        std::vector<std::uint32_t> members;  ///< of cuts_: chains that reach into them, or begin or end
-        std::int32_t winding = 0;            ///< on their left, of the others
-        bool isLevel = false;                ///< nearly level edges cross them
-    };
-
     void begin(std::span<const std::uint32_t> numbers);
     void lookInside(const DownChain& chain);
     void row(float top, float bottom);
@@ -211,14 +197,7 @@ private:
     void measure(float top, float bottom);
     template <class Take>
     void crossOutline(std::span<const Seen> chains, const Take& take);
-    void judge();
-    bool sortToLevelColumns(float top, float bottom);
-    void drawLevelColumns(float top, float bottom);
-    void drawInThinSteps(const LevelColumns& columns, std::size_t first, std::size_t end, std::size_t steps,
-                         float top, float bottom);
     void addOutline(std::span<const Seen> chains, float height, std::vector<float>& shares);
-    void drawLines(float top, float bottom);
-    void addLine(std::int16_t* places, float height);
     void add(const PaintChange& change, const Step& step);
     void addInPixels(const Edge& left, const Edge& right, const Step& step);
     template <class Amount>
@@ -265,8 +244,6 @@ private:
     std::vector<Change> changes_;
     std::vector<glm::vec4> pixelSums_;  ///< by column: what regions show there, times height
     std::int32_t winding_ = 0;          ///< of one layer
-    bool isJudged_ = false, isTangled_ = false;
-    std::vector<std::int16_t> places_;  ///< of lines: what is added to the winding number there
     float drawn_ = 0;                   ///< of the row
     std::size_t smallSteps_ = 0;        ///< chains in smaller steps that may still be taken: by the step
     std::size_t smallInBand_ = 0;       ///< and by the rest of the band
@@ -278,12 +255,6 @@ private:
     std::vector<glm::vec4> inStep_, fine_;  ///< as sums_: of the step, and from end to end
     std::size_t endCuts_ = 0;        ///< chains from end to end that may still be looked at: in the band
     std::size_t endCutsInStep_ = 0;  ///< and in the step
-
-    // Columns of one colour.
-    float rowReach_ = 0;      ///< of the row's edges the longest, where small steps are too few, columns
-    std::vector<Cut> atTop_;  ///< cuts_, before the row's steps have followed them
-    std::vector<LevelColumns> levelColumns_;
-    std::vector<float> levelChanges_, levelShares_;  ///< of some of them
 
     // Which layers show.
     bool hides_ = false;  ///< in the row

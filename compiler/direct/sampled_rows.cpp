@@ -13,6 +13,8 @@ namespace {
 /// row before. A chain that is looked at takes a part of the time, and so does a square all of which a layer
 /// covers.
 constexpr float squaresInPicture = 1.2e7f, mostAlong = 8, look = 1.0f / 8, coveredSquare = 1.0f / 16;
+/// More squares in a row take much memory, half a kilobyte each.
+constexpr float squaresInRow = 1 << 14;
 /// Where a layer has more chains for each pixel, they are met along rows of places instead, which takes this
 /// long.
 constexpr std::size_t denseInPixel = 32;
@@ -76,7 +78,8 @@ int SampledRows::drawPixels(float top, float bottom, int along) {
     }
     // With more squares along a pixel, chains touch as many times more, and there are the square of it.
     const float most = squaresInPicture / float(chains_.height()), by = float(along);
-    return int(std::clamp(std::min(most * by / asked_, std::sqrt(most / covered_) * by), 1.0f, mostAlong));
+    const float next = std::min(most * by / asked_, std::sqrt(most / covered_) * by);
+    return int(std::clamp(next, 1.0f, std::clamp(squaresInRow / float(width_), 1.0f, mostAlong)));
 }
 
 std::size_t SampledRows::endOfLayer(std::size_t first) const {
@@ -191,12 +194,8 @@ void SampledRows::addSteps(const Cut& cut) {
         return;
     const glm::vec2 a = row_.inSquares(cut.a);
     const float slope = row_.inSquares(cut.slope), y = (float(first) + 0.5f) / placesAlong;
-    if (std::abs(slope) > levelSlope) {
-        const float from = a.x + (float(first) / placesAlong - a.y) * slope,
-                    to = a.x + (float(end) / placesAlong - a.y) * slope;
-        return steps_->add(first, end, PlacedEdge(a, slope), std::min(from, to), std::max(from, to),
-                           cut.winding);
-    }
+    if (std::abs(slope) > levelSlope)
+        return steps_->add(first, end, a, row_.inSquares(vertices_[cut.at + 1]), slope, cut.winding);
     float x = a.x + (y - a.y) * slope;
     for (int r = first; r < end; ++r, x += slope / placesAlong)
         steps_->add(r, x, cut.winding);

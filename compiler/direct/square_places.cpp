@@ -151,12 +151,22 @@ PlaceSteps::PlaceSteps(int squares)
       rowSize_(std::size_t(squares) * placesAlong + 1),
       steps_(rowSize_ * placesAlong) {}
 
-void PlaceSteps::add(int first, int end, const PlacedEdge& edge, float left, float right,
-                     std::int32_t winding) {
+void PlaceSteps::add(int first, int end, glm::vec2 a, glm::vec2 b, float slope, std::int32_t winding) {
     hasLevel_ = true;
     here_.resize(std::size_t(squares_));
     fromHere_.resize(std::size_t(squares_) + 1);
-    const PlaceRange range(float(first) / placesAlong, float(end) / placesAlong);
+    const float top = float(first) / placesAlong, bottom = float(end) / placesAlong;
+    if (top < a.y)
+        add(PlacedEdge(a, 0), top, a.y, a.x, a.x, winding);
+    add(PlacedEdge(a, slope), std::max(top, a.y), std::min(bottom, b.y), std::min(a.x, b.x),
+        std::max(a.x, b.x), winding);
+    if (b.y < bottom)
+        add(PlacedEdge(b, 0), b.y, bottom, b.x, b.x, winding);
+}
+
+void PlaceSteps::add(const PlacedEdge& edge, float top, float bottom, float left, float right,
+                     std::int32_t winding) {
+    const PlaceRange range(top, bottom);
     const auto square = [&](float x) { return int(std::clamp(x, 0.0f, float(squares_))); };
     const int behind = right < 0 ? 0 : std::min(square(right) + 1, squares_);
     for (int i = square(left); i < behind; ++i)

@@ -79,9 +79,9 @@ public:
         std::int16_t& step = steps_[std::size_t(r) * rowSize_ + std::size_t(place)];
         step = std::int16_t(step + winding);
     }
-    /// Rows from `first` on, before `end`, lie beside a nearly level edge, which divides the places between x
-    /// = left and right.
-    void add(int first, int end, const PlacedEdge& edge, float left, float right, std::int32_t winding);
+    /// Rows from `first` on, before `end`, lie beside a nearly level edge, from a down to b, and above and
+    /// below it beside its ends.
+    void add(int first, int end, glm::vec2 a, glm::vec2 b, float slope, std::int32_t winding);
     /// Gives the winding numbers of all squares, one after another, to take(square, windings), and forgets
     /// the steps.
     template <class Take>
@@ -93,6 +93,7 @@ private:
         std::array<std::int16_t, placesAlong> rows{};
         PlaceWindings places{};
     };
+    void add(const PlacedEdge& edge, float top, float bottom, float left, float right, std::int32_t winding);
     void windingsOf(int square, Before& before, PlaceWindings& windings) const;
 
     std::array<float, placesAlong> turns_;

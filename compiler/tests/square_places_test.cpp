@@ -105,9 +105,9 @@ TEST(SquarePlaces, StepsAlongRowsTellWhatEdgesDo) {
             const glm::vec2 a(squares * between(random), between(random));
             const float slope = steep * (2 * between(random) - 1);
             const PlacedEdge edge(a, slope);
-            const float top = a.x - a.y * slope, bottom = top + slope;
+            const float top = a.x - a.y * slope;
             if (steep > 16)
-                steps.add(0, placesAlong, edge, std::min(top, bottom), std::max(top, bottom), 1);
+                steps.add(0, placesAlong, {top, 0}, {top + slope, 1}, slope, 1);
             for (int r = 0; r < placesAlong && steep <= 16; ++r)
                 steps.add(r, top + (float(r) + 0.5f) / placesAlong * slope, 1);
             for (int square = 0; square < squares; ++square)
@@ -125,6 +125,23 @@ TEST(SquarePlaces, StepsAlongRowsTellWhatEdgesDo) {
             EXPECT_TRUE(std::ranges::all_of(windings, [](auto w) { return w == 0; }));
         });
     }
+}
+
+/// An edge that is less high than a row of places, beside which the whole row lies.
+TEST(SquarePlaces, NearlyLevelEdgesReachNoFurtherThanTheirEnds) {
+    constexpr int squares = 9;
+    PlaceSteps steps(squares);
+    const glm::vec2 a(7, 0.53f), b(2, 0.54f);
+    steps.add(8, 9, a, b, (b.x - a.x) / (b.y - a.y), 1);
+    steps.takeAll([&](int square, const PlaceWindings& windings) {
+        const auto inRow = std::span(windings).subspan(8 * placesAlong, placesAlong);
+        const auto right = std::ranges::count(inRow, std::int16_t(1));
+        EXPECT_EQ(std::ranges::count(windings, std::int16_t(1)), right);
+        EXPECT_TRUE(square < 2   ? right == 0
+                    : square < 7 ? right > 0 && right < placesAlong
+                                 : right == placesAlong)
+            << square;
+    });
 }
 
 // ---- Light in a row of squares --------------------------------------------------------------------
