@@ -32,6 +32,13 @@ constexpr float leastHeight = 1.0f / 1024;
 /// So many pieces are kept before those on the left are forgotten, and so many for each chain of the square.
 constexpr std::size_t keptPieces = 64, keptForChain = 8;
 
+/// dx / dy; 0 of edges that are level, or so nearly that nothing lies beside them.
+float slopeOf(glm::vec2 a, glm::vec2 b) {
+    constexpr float steepest = 1e9f;
+    const float slope = (b.x - a.x) / (b.y - a.y);
+    return std::abs(slope) < steepest ? slope : 0;
+}
+
 }  // namespace
 
 SampledRows::SampledRows(const LoweredScene& picture, const ViewChains& chains, RegionState& state, int width)
@@ -52,7 +59,6 @@ void SampledRows::run(std::span<const std::uint32_t> numbers, float top, float b
     int along = 1;
     std::size_t chainsBefore = 0;
     while (top < bottom) {
-        limits::check();
         const float end = std::min(std::floor(top) + 1, bottom);
         take(numbers, top, end);
         if (cuts_.size() > 2 * chainsBefore) {  // the row before tells little of this one
@@ -68,16 +74,19 @@ void SampledRows::run(std::span<const std::uint32_t> numbers, float top, float b
     }
 }
 
-/// A row of pixels, as many squares wide and high. Returns how many the next row's should be.
+/// A row of pixels, or a part of its height, each so many squares wide. Returns how many the next row's
+/// should be.
 int SampledRows::drawPixels(float top, float bottom, int along) {
-    const float height = (bottom - top) / float(along);
+    const auto by = float(along), down = std::max(1.0f, std::ceil(by * (bottom - top)));
+    const float height = (bottom - top) / down;
     asked_ = covered_ = 1;
-    for (int k = 0; k < along; ++k) {
-        row_ = {top + float(k) * height, top + float(k + 1) * height, float(along)};
+    for (float k = 0; k < down; ++k) {
+        limits::check();
+        row_ = {top + k * height, top + (k + 1) * height, by};
         drawRow();
     }
     // With more squares along a pixel, chains touch as many times more, and there are the square of it.
-    const float most = squaresInPicture / float(chains_.height()), by = float(along);
+    const float most = squaresInPicture / float(chains_.height()) * down / by;
     const float next = std::min(most * by / asked_, std::sqrt(most / covered_) * by);
     return int(std::clamp(next, 1.0f, std::clamp(squaresInRow / float(width_), 1.0f, mostAlong)));
 }
@@ -128,7 +137,7 @@ void SampledRows::findEdge(Cut& cut, float y) const {
         ++cut.at;
     const glm::vec2 a = vertices_[cut.at], b = vertices_[cut.at + 1];
     cut.a = a;
-    cut.slope = a.y < b.y ? (b.x - a.x) / (b.y - a.y) : 0;
+    cut.slope = slopeOf(a, b);
     cut.edgeBottom = b.y;
 }
 
@@ -218,7 +227,7 @@ void SampledRows::lookAt(std::uint32_t number) {
     for (std::uint32_t at = cut.at; !isStraight && at < cut.last && vertices_[at].y < bottom; ++at) {
         const glm::vec2 a = vertices_[at], b = vertices_[at + 1];
         end = std::min(b.y, bottom);
-        to = b.y <= bottom ? b.x : a.x + (bottom - a.y) * ((b.x - a.x) / (b.y - a.y));
+        to = b.y <= bottom ? b.x : a.x + (bottom - a.y) * slopeOf(a, b);
         left = std::min(left, to);
         right = std::max(right, to);
     }
@@ -476,7 +485,7 @@ void SampledRows::findPieces(Touch& touch) {
          ++at) {
         const glm::vec2 a = vertices_[at], b = vertices_[at + 1];
         if (a.y < b.y)
-            add(a, (b.x - a.x) / (b.y - a.y), b.y);
+            add(a, slopeOf(a, b), b.y);
     }
     touch.endPiece = std::uint32_t(pieces_.size());
 }

@@ -353,11 +353,12 @@ TEST(DrawnOnce, NothingShowsBesideDenseOutlines) {
     const scene::Scene scene = sceneOf(starOf(100000) + "<circle r=\".01\"/>");
     constexpr int width = 500;
     constexpr double radius = 31.0 / 64 * width, pixel = 1.5;
+    constexpr float rounded = 0.01f / 255;  // a hundredth of a step of 8 bits
     const image::Raster drawn = compiler::ViewDrawing::make(scene, wholePicture(scene, width))->draw();
     for (int y = 1; y < drawn.height; ++y)
         for (int x = 1; x < drawn.width; ++x)
             if (std::hypot(x + 0.5 - 0.5 * width, y + 0.5 - 0.5 * width) > radius + pixel) {
-                ASSERT_EQ(drawn.pixel(x, y)[3], 0) << x << ", " << y;
+                ASSERT_LE(drawn.pixel(x, y)[3], rounded) << x << ", " << y;
             }
 }
 
