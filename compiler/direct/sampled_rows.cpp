@@ -21,6 +21,8 @@ constexpr std::size_t denseInPixel = 32;
 constexpr float denseLook = 1.0f / 6;
 /// There, an edge that crosses more squares in a row is nearly level.
 constexpr float levelSlope = 16;
+/// Each of them takes so much of the time that places asked of a square do.
+constexpr float crossedSquare = 1.0f / 32;
 /// Winding numbers by one chain take so much of the time that a square does.
 constexpr float askedOfChain = 1.0f / 4;
 /// So many touches are sorted by digits.
@@ -203,8 +205,11 @@ void SampledRows::addSteps(const Cut& cut) {
         return;
     const glm::vec2 a = row_.inSquares(cut.a);
     const float slope = row_.inSquares(cut.slope), y = (float(first) + 0.5f) / placesAlong;
-    if (std::abs(slope) > levelSlope)
-        return steps_->add(first, end, a, row_.inSquares(vertices_[cut.at + 1]), slope, cut.winding);
+    if (std::abs(slope) > levelSlope) {
+        const glm::vec2 b = row_.inSquares(vertices_[cut.at + 1]);
+        covered_ += crossedSquare * std::min(std::abs(b.x - a.x), float(lights_.squares()));
+        return steps_->add(first, end, a, b, slope, cut.winding);
+    }
     float x = a.x + (y - a.y) * slope;
     for (int r = first; r < end; ++r, x += slope / placesAlong)
         steps_->add(r, x, cut.winding);
