@@ -31,8 +31,6 @@ constexpr std::size_t manyCuts = 1u << 10, manyLayers = 64;
 /// If fewer than one of so many chains are hidden, nobody looks in the rest of the row and in so many more.
 constexpr std::size_t hiddenOfOthers = 8;
 constexpr int rowsToTryAgain = 7;
-/// So many chains before one is looked at, its vertices are fetched.
-constexpr std::size_t ahead = 16;
 /// On a row of squares so many to a pixel.
 constexpr std::int32_t squaresInAPixel = 16;
 
@@ -71,6 +69,7 @@ LineSweep::LineSweep(const ViewChains& chains, RegionState& state, PixelColors& 
       state_(state),
       pixels_(pixels),
       width_(width),
+      taker_(chains),
       sums_(std::size_t(width) + 2),
       shares_(sums_.size()),
       pixelSums_(sums_.size()),
@@ -107,7 +106,7 @@ void LineSweep::begin(std::span<const std::uint32_t> numbers) {
             lookInside(chains_[numbers[0]]);
     }
     cuts_.clear();
-    toCome_ = numbers;
+    taker_.begin(numbers);
     smallInBand_ = smallCutsInBand;
     costOfCut_ = 1;
     isMeasured_ = isOneColor_;
@@ -177,60 +176,27 @@ void LineSweep::row(float top, float bottom) {
 
 // ---- Chains ---------------------------------------------------------------------------------------
 
-/// Those that begin above the bottom come, those that end above the top go.
 void LineSweep::take(float top, float bottom) {
-    begun_.clear();
-    std::size_t begun = 0;
-    for (; begun < toCome_.size() && chains_[toCome_[begun]].top < bottom; ++begun) {
-        const DownChain& chain = chains_[toCome_[begun]];
-        if (chain.bottom > top)
-            begun_.push_back({.a = vertices_[chain.first],
-                              .at = chain.first,
-                              .last = chain.end - 1,
-                              .layer = chain.layer,
-                              .winding = chain.winding});
-    }
-    toCome_ = toCome_.subspan(begun);
-    const auto merge = [&](auto isBefore) {
-        std::ranges::stable_sort(begun_, isBefore);
-        arranged_.clear();
-        auto next = begun_.begin();
-        for (const Cut& cut : cuts_) {
-            if (cut.edgeBottom <= top && vertices_[cut.last].y <= top)
-                continue;
-            for (; next != begun_.end() && isBefore(*next, cut); ++next)
-                arranged_.push_back(*next);
-            arranged_.push_back(cut);
-        }
-        arranged_.insert(arranged_.end(), next, begun_.end());
+    const auto merge = [&](const auto& isBefore) {
+        taker_.take(
+            top, bottom, cuts_, [](const DownChain&) { return true; }, isBefore);
     };
     if (isOneLayer_)
-        merge([&](const Cut& a, const Cut& b) { return a.xAt(top) < b.xAt(top); });
+        merge([&](const CutChain& a, const CutChain& b) { return a.xAt(top) < b.xAt(top); });
     else
-        merge([](const Cut& a, const Cut& b) { return a.layer > b.layer; });
-    cuts_.swap(arranged_);
+        merge([](const CutChain& a, const CutChain& b) { return a.layer > b.layer; });
 }
 
 /// Where the edge that was looked at last does not reach from the top to the bottom.
-void LineSweep::lookAgain(Cut& cut, const Step& step, Seen& seen) {
-    findEdge(cut, step.top);
-    if (cut.spans(step) && cut.a.y < cut.edgeBottom)
+void LineSweep::lookAgain(CutChain& cut, const Step& step, Seen& seen) {
+    findEdge(cut, step.top, vertices_);
+    if (cut.spans(step.top, step.bottom) && cut.a.y < cut.edgeBottom)
         return look(seen.cut, step, seen);
     lookAround(cut, step, seen);
 }
 
-/// That at y, the first or the last.
-void LineSweep::findEdge(Cut& cut, float y) const {
-    while (cut.at + 1 < cut.last && vertices_[cut.at + 1].y <= y)
-        ++cut.at;
-    const glm::vec2 a = vertices_[cut.at], b = vertices_[cut.at + 1];
-    cut.a = a;
-    cut.slope = a.y < b.y ? (b.x - a.x) / (b.y - a.y) : 0;
-    cut.edgeBottom = b.y;
-}
-
 /// Where it has a vertex. Above its upper end and below its lower one it is taken to be there.
-void LineSweep::lookAround(const Cut& cut, const Step& step, Seen& seen) {
+void LineSweep::lookAround(const CutChain& cut, const Step& step, Seen& seen) {
     const auto xAt = [&](const glm::vec2* edge, float y) {
         return edge[0].x + (y - edge[0].y) * ((edge[1].x - edge[0].x) / (edge[1].y - edge[0].y));
     };
@@ -272,16 +238,10 @@ bool LineSweep::mayHide() const {
     return layers >= manyLayers;
 }
 
-/// Chains' vertices lie far from each other.
-void LineSweep::fetchAhead(std::size_t number, float bottom) const {
-    if (number + ahead < cuts_.size() && cuts_[number + ahead].edgeBottom < bottom)
-        __builtin_prefetch(vertices_ + cuts_[number + ahead].at + 1);
-}
-
 void LineSweep::lookAtAll(const Step& step) {
     seen_.resize(cuts_.size());
     for (std::size_t i = 0; i < cuts_.size(); ++i) {
-        fetchAhead(i, step.bottom);
+        fetchAhead(cuts_, i, step.bottom, vertices_);
         look(i, step, seen_[i]);
     }
     if (order_.size() == seen_.size()) {  // as in the step before, and nearly in order
@@ -306,7 +266,7 @@ void LineSweep::lookForShown(const Step& step) {
         for (; i < cuts_.size() && cuts_[i].layer == layer; ++i) {
             if (isPassedOver)
                 continue;
-            fetchAhead(i, step.bottom);
+            fetchAhead(cuts_, i, step.bottom, vertices_);
             look(i, step, seen_.emplace_back());
         }
         if (isPassedOver || isShown(std::span(seen_).subspan(before)))
@@ -637,39 +597,33 @@ void LineSweep::lookHere(Shown& shown) {
     shown.color = shown.isProgram() ? glm::vec4(0) : state_.colors()[std::exchange(shown.region.paint, 0)];
 }
 
-/// Of one layer, whose inside is a colour. Calls take(seen, whether another crosses it in the step, whether
-/// the inside is on its right) for all that divide inside from outside.
-template <class Take>
-void LineSweep::crossOutline(std::span<const Seen> chains, const Take& take) {
+/// Of one layer, whose inside is a colour: what changes from column to column.
+void LineSweep::addOutline(std::span<const Seen> chains, float height, std::vector<float>& shares) {
     const std::int32_t mask = isEvenOdd_ ? 1 : -1;
-    const Seen* last = nullptr;
-    bool isCrossed = false, isInside = (winding_ & mask) != 0;
+    Change last;
+    bool isInside = (winding_ & mask) != 0;
+    const auto addLast = [&] {
+        const Edge edge = last.edge();
+        addAlong(shares, edge.from, edge.to, isInside ? height : -height);
+    };
     for (const Seen& seen : chains) {
         if (!seen.isAtMiddle)
             continue;
         winding_ += seen.winding;
         if (((winding_ & mask) != 0) == isInside)
             continue;
-        bool crosses = false;
-        if (last) {
-            crosses = last->from > seen.from || last->to > seen.to;
-            take(*last, isCrossed || crosses, isInside);
+        Change next{&seen, seen.isBent()};
+        if (last.seen) {
+            const bool crosses = last.crosses(seen);
+            next.isUpright = next.isUpright || crosses;
+            last.isUpright = last.isUpright || crosses;
+            addLast();
         }
         isInside = !isInside;
-        last = &seen;
-        isCrossed = crosses;
+        last = next;
     }
-    if (last)
-        take(*last, isCrossed, isInside);
-}
-
-/// The same, as what changes from column to column.
-void LineSweep::addOutline(std::span<const Seen> chains, float height, std::vector<float>& shares) {
-    crossOutline(chains, [&](const Seen& seen, bool isCrossed, bool isInside) {
-        const bool isUpright = isCrossed || seen.isBent();
-        addAlong(shares, isUpright ? seen.x : seen.from, isUpright ? seen.x : seen.to,
-                 isInside ? height : -height);
-    });
+    if (last.seen)
+        addLast();
 }
 
 void LineSweep::add(const PaintChange& change, const Step& step) {

@@ -24,6 +24,7 @@
 
 #include "compiler/containers/sort_places.hpp"
 #include "compiler/direct/covered_row.hpp"
+#include "compiler/direct/cut_chains.hpp"
 #include "compiler/direct/pixel_colors.hpp"
 #include "compiler/direct/region_state.hpp"
 #include "compiler/direct/view_chains.hpp"
@@ -60,20 +61,6 @@ private:
         float height;       ///< what it stands for
 
         float middle() const { return 0.5f * (top + bottom); }
-    };
-    /// A chain that the row cuts, and the edge of it that was looked at last. Many are gone through in each
-    /// step, so there is no more in it.
-    struct Cut {
-        glm::vec2 a;                   ///< the edge's upper end, or the chain's
-        float slope = 0;               ///< dx / dy
-        float edgeBottom = -INFINITY;  ///< where it ends; none at first
-        std::uint32_t at;              ///< the upper end's vertex
-        std::uint32_t last;            ///< the chain's
-        std::uint32_t layer;
-        std::int32_t winding;
-
-        bool spans(const Step& step) const { return a.y <= step.top && edgeBottom >= step.bottom; }
-        float xAt(float y) const { return slope == 0 ? a.x : a.x + (std::min(y, edgeBottom) - a.y) * slope; }
     };
     /// Where a chain goes in a step.
     struct Seen {
@@ -164,11 +151,9 @@ private:
     void placeByMostContents(float top, std::size_t most);
     void take(float top, float bottom);
     void look(std::size_t number, const Step& step, Seen& seen);
-    void findEdge(Cut& cut, float y) const;
-    void lookAgain(Cut& cut, const Step& step, Seen& seen);
-    void lookAround(const Cut& cut, const Step& step, Seen& seen);
+    void lookAgain(CutChain& cut, const Step& step, Seen& seen);
+    void lookAround(const CutChain& cut, const Step& step, Seen& seen);
     bool mayHide() const;
-    void fetchAhead(std::size_t number, float bottom) const;
     void lookAtAll(const Step& step);
     void lookForShown(const Step& step);
     bool isShown(std::span<const Seen> ofLayer);
@@ -195,8 +180,6 @@ private:
     void findLayersOfPixels(float top, float bottom);
     void lookHere(Shown& shown);
     void measure(float top, float bottom);
-    template <class Take>
-    void crossOutline(std::span<const Seen> chains, const Take& take);
     void addOutline(std::span<const Seen> chains, float height, std::vector<float>& shares);
     void add(const PaintChange& change, const Step& step);
     void addInPixels(const Edge& left, const Edge& right, const Step& step);
@@ -215,16 +198,15 @@ private:
     bool isOneColor_ = false;  ///< and its inside is a colour
     bool isEvenOdd_ = false;   ///< if so
     glm::vec4 color_{0};
-    bool isArranged_ = false;    ///< in the row
-    bool hasSpecial_ = false;    ///< among those that were looked at
-    std::vector<Cut> cuts_;      ///< from the topmost layer down; of one layer from left to right
-    std::vector<Cut> arranged_;  ///< spare
-    std::vector<Cut> begun_;     ///< in the row
-    std::vector<Seen> seen_;     ///< those of them that may show in the step
-    std::vector<Placed> order_;  ///< of these, from left to right
-    std::vector<Seen> sorted_;   ///< in this order
+    bool isArranged_ = false;  ///< in the row
+    bool hasSpecial_ = false;  ///< among those that were looked at
+    ChainTaker taker_;
+    std::vector<CutChain> cuts_;      ///< from the topmost layer down; of one layer from left to right
+    std::vector<CutChain> arranged_;  ///< spare
+    std::vector<Seen> seen_;          ///< those of them that may show in the step
+    std::vector<Placed> order_;       ///< of these, from left to right
+    std::vector<Seen> sorted_;        ///< in this order
     std::vector<Placed> spare_;
-    std::span<const std::uint32_t> toCome_;  ///< from the top
     std::vector<Step> steps_;
     std::vector<ContentChange> contentChanges_;
     LevelSides levelSides_;  ///< of the row
@@ -264,11 +246,11 @@ private:
 };
 
 inline void LineSweep::look(std::size_t number, const Step& step, Seen& seen) {
-    Cut& cut = cuts_[number];
+    CutChain& cut = cuts_[number];
     seen.cut = std::uint32_t(number);
     seen.layer = cut.layer;
     seen.winding = std::int8_t(cut.winding);
-    if (!cut.spans(step))
+    if (!cut.spans(step.top, step.bottom))
         return lookAgain(cut, step, seen);
     seen.from = cut.a.x + (step.top - cut.a.y) * cut.slope;
     seen.to = cut.a.x + (step.bottom - cut.a.y) * cut.slope;

@@ -81,7 +81,7 @@ void LineSweep::findHeights(std::span<const std::uint32_t> members, const Step& 
     for (const std::uint32_t i : members) {
         if (!sorted_[i].hasEnd)
             continue;
-        const Cut& cut = cuts_[sorted_[i].cut];
+        const CutChain& cut = cuts_[sorted_[i].cut];
         for (const float y : {vertices_[cut.at].y, vertices_[cut.last].y})
             if (y > step.top && y < step.bottom)
                 heights_.push_back(y);
@@ -148,7 +148,7 @@ void LineSweep::leaveOutEndedColumns(std::span<const glm::vec4> changes) {
 /// What changes in the columns becomes `fine_`; returns what is on their left.
 glm::vec4 LineSweep::drawFromEndToEnd(const EndedColumns& columns, const Step& step) {
     limits::check();
-    std::vector<Cut> before;
+    std::vector<CutChain> before;
     float leftmost = columns.left, rightmost = columns.right;
     for (const std::uint32_t i : columns.members) {
         const Seen& seen = sorted_[i];

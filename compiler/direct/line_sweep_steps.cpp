@@ -85,8 +85,8 @@ void LineSweep::findPieces(float top, float bottom) {
         levelSides_.left = std::min(levelSides_.left, left);
         levelSides_.right = std::max(levelSides_.right, right);
     };
-    for (const Cut& cut : cuts_) {
-        if (cut.spans({top, bottom, bottom - top}))
+    for (const CutChain& cut : cuts_) {
+        if (cut.spans(top, bottom))
             continue;
         const bool begins = cut.a.y > top;
         const float end = vertices_[cut.last].y;

@@ -27,44 +27,34 @@ constexpr float crossedSquare = 1.0f / 32;
 constexpr float askedOfChain = 1.0f / 4;
 /// So many touches are sorted by digits.
 constexpr std::size_t manyTouches = 64;
-/// So many chains before one is looked at, its vertices are fetched.
-constexpr std::size_t ahead = 16;
 /// Of a row: the line of a chain that is less high is not known well.
 constexpr float leastHeight = 1.0f / 1024;
 /// So many pieces are kept before those on the left are forgotten, and so many for each chain of the square.
 constexpr std::size_t keptPieces = 64, keptForChain = 8;
 
-/// dx / dy; 0 of edges that are level, or so nearly that nothing lies beside them.
-float slopeOf(glm::vec2 a, glm::vec2 b) {
-    constexpr float steepest = 1e9f;
-    const float slope = (b.x - a.x) / (b.y - a.y);
-    return std::abs(slope) < steepest ? slope : 0;
-}
-
 }  // namespace
 
 SampledRows::SampledRows(const LoweredScene& picture, const ViewChains& chains, RegionState& state, int width)
-    : SampledRows(SolidLayers(picture), chains, state, width) {}
-
-SampledRows::SampledRows(SolidLayers layers, const ViewChains& chains, RegionState& state, int width)
-    : chains_(chains),
+    : height_(chains.height()),
       vertices_(chains.vertices()),
       state_(state),
       width_(width),
-      layers_(std::move(layers.layers)),
-      lights_(std::move(layers.groups)),
+      solids_(picture),
+      lights_(solids_.groups),
+      taker_(chains),
       sums_(std::size_t(width)) {}
 
 void SampledRows::run(std::span<const std::uint32_t> numbers, float top, float bottom,
                       std::vector<asset::Chord>& chords) {
     cuts_.clear();
+    taker_.begin(numbers);
     int along = 1;
     std::size_t chainsBefore = 0;
     while (top < bottom) {
         const float end = std::min(std::floor(top) + 1, bottom);
-        take(numbers, top, end);
+        take(top, end);
         if (cuts_.size() > 2 * chainsBefore) {  // the row before tells little of this one
-            const std::vector<Cut> before = cuts_;
+            const std::vector<CutChain> before = cuts_;
             along = drawPixels(top, end, 1);
             std::ranges::fill(sums_, glm::vec4(0));
             cuts_ = before;
@@ -88,7 +78,7 @@ int SampledRows::drawPixels(float top, float bottom, int along) {
         drawRow();
     }
     // With more squares along a pixel, chains touch as many times more, and there are the square of it.
-    const float most = squaresInPicture / float(chains_.height()) * down / by;
+    const float most = squaresInPicture / float(height_) * down / by;
     const float next = std::min(most * by / asked_, std::sqrt(most / covered_) * by);
     return int(std::clamp(next, 1.0f, std::clamp(squaresInRow / float(width_), 1.0f, mostAlong)));
 }
@@ -104,49 +94,10 @@ bool SampledRows::isDense(std::size_t chains) const { return chains > denseInPix
 
 // ---- Chains ---------------------------------------------------------------------------------------
 
-/// Those that begin above the bottom come, those that end above the top go.
-void SampledRows::take(std::span<const std::uint32_t>& toCome, float top, float bottom) {
-    begun_.clear();
-    std::size_t begun = 0;
-    for (; begun < toCome.size() && chains_[toCome[begun]].top < bottom; ++begun) {
-        const DownChain& chain = chains_[toCome[begun]];
-        if (chain.bottom > top && layers_[chain.layer].color.w > 0)
-            begun_.push_back({.a = vertices_[chain.first],
-                              .at = chain.first,
-                              .last = chain.end - 1,
-                              .layer = chain.layer,
-                              .winding = chain.winding});
-    }
-    toCome = toCome.subspan(begun);
-    const auto isBefore = [](const Cut& a, const Cut& b) { return a.layer > b.layer; };
-    std::ranges::stable_sort(begun_, isBefore);
-    merged_.clear();
-    auto next = begun_.begin();
-    for (const Cut& cut : cuts_) {
-        if (cut.edgeBottom <= top && vertices_[cut.last].y <= top)
-            continue;
-        for (; next != begun_.end() && isBefore(*next, cut); ++next)
-            merged_.push_back(*next);
-        merged_.push_back(cut);
-    }
-    merged_.insert(merged_.end(), next, begun_.end());
-    cuts_.swap(merged_);
-}
-
-/// That at y, the first or the last.
-void SampledRows::findEdge(Cut& cut, float y) const {
-    while (cut.at + 1 < cut.last && vertices_[cut.at + 1].y <= y)
-        ++cut.at;
-    const glm::vec2 a = vertices_[cut.at], b = vertices_[cut.at + 1];
-    cut.a = a;
-    cut.slope = slopeOf(a, b);
-    cut.edgeBottom = b.y;
-}
-
-/// Chains' vertices lie far from each other.
-void SampledRows::fetchAhead(std::size_t number) const {
-    if (number + ahead < cuts_.size() && cuts_[number + ahead].edgeBottom < row_.bottom)
-        __builtin_prefetch(vertices_ + cuts_[number + ahead].at + 1);
+void SampledRows::take(float top, float bottom) {
+    taker_.take(
+        top, bottom, cuts_, [&](const DownChain& chain) { return solids_.layers[chain.layer].color.w > 0; },
+        [](const CutChain& a, const CutChain& b) { return a.layer > b.layer; });
 }
 
 void SampledRows::drawRow() {
@@ -156,17 +107,17 @@ void SampledRows::drawRow() {
         const std::uint32_t layer = cuts_[i].layer;
         end = endOfLayer(i);
         if (isDense(end - i)) {
-            drawDense(std::span(cuts_).subspan(i, end - i), layers_[layer]);
+            drawDense(std::span(cuts_).subspan(i, end - i), solids_.layers[layer]);
             continue;
         }
         touches_.clear();
         asked_ += look * float(end - i);
         for (; i < end; ++i) {
-            fetchAhead(i);
+            fetchAhead(cuts_, i, row_.bottom, vertices_);
             lookAt(std::uint32_t(i));
         }
         if (!touches_.empty())
-            drawTouched(layers_[layer]);
+            drawTouched(solids_.layers[layer]);
     }
     const std::span<const glm::vec4> colors = lights_.finish();
     for (std::size_t i = 0; i < squares; ++i)
@@ -174,17 +125,17 @@ void SampledRows::drawRow() {
 }
 
 /// Many chains meet each square: they are met along rows of places.
-void SampledRows::drawDense(std::span<Cut> cuts, const Layer& layer) {
+void SampledRows::drawDense(std::span<CutChain> cuts, const Layer& layer) {
     if (!steps_ || steps_->squares() != lights_.squares())
         steps_.emplace(lights_.squares());
     asked_ += denseLook * float(cuts.size()) + float(lights_.squares());
-    for (Cut& cut : cuts) {
-        fetchAhead(std::size_t(&cut - cuts_.data()));
+    for (CutChain& cut : cuts) {
+        fetchAhead(cuts_, std::size_t(&cut - cuts_.data()), row_.bottom, vertices_);
         if (cut.edgeBottom <= row_.top)
-            findEdge(cut, row_.top);
+            findEdge(cut, row_.top, vertices_);
         addSteps(cut);
         while (cut.edgeBottom < row_.bottom && cut.at + 1 < cut.last) {
-            findEdge(cut, cut.edgeBottom);
+            findEdge(cut, cut.edgeBottom, vertices_);
             addSteps(cut);
         }
     }
@@ -196,7 +147,7 @@ void SampledRows::drawDense(std::span<Cut> cuts, const Layer& layer) {
 }
 
 /// The edge of the chain.
-void SampledRows::addSteps(const Cut& cut) {
+void SampledRows::addSteps(const CutChain& cut) {
     const auto rowAt = [&](float y) {  // the first whose middle is not above it
         return int(std::ceil(std::clamp(row_.heightOf(y), 0.0f, 1.0f) * placesAlong - 0.5f));
     };
@@ -220,9 +171,9 @@ void SampledRows::addSteps(const Cut& cut) {
 /// Appends what the chain touches in the row, if it is in it.
 void SampledRows::lookAt(std::uint32_t number) {
     const auto [top, bottom, along] = row_;
-    Cut& cut = cuts_[number];
+    CutChain& cut = cuts_[number];
     if (cut.edgeBottom <= top)
-        findEdge(cut, top);
+        findEdge(cut, top, vertices_);
     if (cut.edgeBottom <= top || cut.a.y >= bottom)
         return;
     const float begin = std::max(cut.a.y, top), from = cut.xAt(begin);
@@ -406,7 +357,7 @@ bool SampledRows::isDarkBetween(const Touch& left, const Touch& right, std::int3
 /// Calls visit(edge's upper end, its lower end) for the parts of a chain's edges in the square, from the top.
 template <class Visit>
 void SampledRows::visitParts(const Touch& touch, std::int32_t square, const Visit& visit) const {
-    const Cut& cut = cuts_[touch.cut];
+    const CutChain& cut = cuts_[touch.cut];
     const auto left = float(square), right = float(square + 1);
     for (std::uint32_t at = cut.at; at < cut.last && vertices_[at].y < row_.bottom; ++at) {
         const glm::vec2 a = row_.inSquares(vertices_[at]), b = row_.inSquares(vertices_[at + 1]), d = b - a;
@@ -484,7 +435,7 @@ void SampledRows::findPieces(Touch& touch) {
                            a.y <= row_.top && bottom >= row_.bottom, std::min(enter, leave),
                            std::max(enter, leave)});
     };
-    const Cut& cut = cuts_[touch.cut];
+    const CutChain& cut = cuts_[touch.cut];
     add(cut.a, cut.slope, cut.edgeBottom);
     for (std::uint32_t at = cut.at + 1; !touch.isStraight && at < cut.last && vertices_[at].y < row_.bottom;
          ++at) {

@@ -18,6 +18,7 @@
 #include <glm/vec4.hpp>
 
 #include "compiler/containers/sort_places.hpp"
+#include "compiler/direct/cut_chains.hpp"
 #include "compiler/direct/region_state.hpp"
 #include "compiler/direct/solid_layers.hpp"
 #include "compiler/direct/square_lights.hpp"
@@ -41,23 +42,8 @@ public:
              std::vector<asset::Chord>& chords);
 
 private:
-    SampledRows(SolidLayers layers, const ViewChains& chains, RegionState& state, int width);
-
     using Layer = SolidLayers::Layer;
 
-    /// A chain that the row of pixels cuts, and the edge of it that was looked at last. Many are gone through
-    /// in each row of squares, so there is no more in it.
-    struct Cut {
-        glm::vec2 a;                   ///< the edge's upper end
-        float slope = 0;               ///< dx / dy
-        float edgeBottom = -INFINITY;  ///< where it ends; none at first
-        std::uint32_t at;              ///< the upper end's vertex
-        std::uint32_t last;            ///< the chain's
-        std::uint32_t layer;
-        std::int32_t winding;
-
-        float xAt(float y) const { return slope == 0 ? a.x : a.x + (y - a.y) * slope; }
-    };
     /// A row of squares, and how many of these a pixel is wide.
     struct Row {
         float top, bottom;
@@ -101,12 +87,10 @@ private:
     int drawPixels(float top, float bottom, int along);
     std::size_t endOfLayer(std::size_t first) const;
     bool isDense(std::size_t chains) const;
-    void take(std::span<const std::uint32_t>& toCome, float top, float bottom);
-    void findEdge(Cut& cut, float y) const;
-    void fetchAhead(std::size_t number) const;
+    void take(float top, float bottom);
     void drawRow();
-    void drawDense(std::span<Cut> cuts, const Layer& layer);
-    void addSteps(const Cut& cut);
+    void drawDense(std::span<CutChain> cuts, const Layer& layer);
+    void addSteps(const CutChain& cut);
     void lookAt(std::uint32_t number);
     void sortTouches();
     void drawTouched(const Layer& layer);
@@ -126,14 +110,14 @@ private:
     void addTouch(Touch& touch, std::int32_t square);
     void finishRow(float top, float bottom, std::vector<asset::Chord>& chords);
 
-    const ViewChains& chains_;
+    const int height_;
     const glm::vec2* const vertices_;
     RegionState& state_;
     const int width_;
-    const std::vector<Layer> layers_;
+    const SolidLayers solids_;
     SquareLights lights_;
-    std::vector<Cut> cuts_;  ///< from the topmost layer down
-    std::vector<Cut> begun_, merged_;
+    ChainTaker taker_;
+    std::vector<CutChain> cuts_;  ///< from the topmost layer down
     Row row_{};
     float asked_ = 0;              ///< squares in which places were asked, and what takes as long
     float covered_ = 0;            ///< the same of squares all of which layers covered

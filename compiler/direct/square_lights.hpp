@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <glm/vec4.hpp>
@@ -25,6 +26,7 @@ struct RowLine {
     RowLine movedBy(float x) const { return {enter + x, leave + x}; }
 };
 
+/// For one thread.
 class SquareLights {
 public:
     explicit SquareLights(std::vector<SolidLayers::Group> groups) : groups_(std::move(groups)) {}

@@ -36,7 +36,6 @@ private:
     std::int16_t top_, bottom_;
 };
 
-class PlacedEdge;
 /// How much of all light was taken, and what is left there.
 struct TakenLight {
     float taken;
@@ -122,8 +121,7 @@ void PlaceSteps::takeAll(const Take& take) {
     hasLevel_ = false;
 }
 
-/// Takes a layer's part, `alpha`, of the light where the winding number is not zero, or is odd. Returns how
-/// much of all light that is.
+/// Takes a layer's part, `alpha`, of the light where the winding number is not zero, or is odd.
 TakenLight takeLight(PlaceLights& lights, const PlaceWindings& windings, bool isEvenOdd, float alpha);
 /// The same on one side of an edge, at all heights of a square of the row.
 TakenLight takeLightBeside(PlaceLights& lights, const PlacedEdge& edge, int square, bool isLeft, float alpha);
