@@ -155,15 +155,14 @@ void SampledRows::addSteps(const CutChain& cut) {
     if (first >= end)
         return;
     const glm::vec2 a = row_.inSquares(cut.a);
-    const float slope = row_.inSquares(cut.slope), y = (float(first) + 0.5f) / placesAlong;
+    const float slope = row_.inSquares(cut.slope);
     if (std::abs(slope) > levelSlope) {
         const glm::vec2 b = row_.inSquares(vertices_[cut.at + 1]);
         covered_ += crossedSquare * std::min(std::abs(b.x - a.x), float(lights_.squares()));
-        return steps_->add(first, end, a, b, slope, cut.winding);
+        return steps_->addLevel(first, end, a, b, cut.winding);
     }
-    float x = a.x + (y - a.y) * slope;
-    for (int r = first; r < end; ++r, x += slope / placesAlong)
-        steps_->add(r, x, cut.winding);
+    const float y = (float(first) + 0.5f) / placesAlong;
+    steps_->add(first, end, a.x + (y - a.y) * slope, slope / placesAlong, cut.winding);
 }
 
 // ---- Squares --------------------------------------------------------------------------------------

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 
 namespace vtm::compiler {
@@ -83,6 +84,29 @@ TakenLight take(PlaceLights& lights, const PlaceWindings& windings, const Inside
                 [=](std::uint16_t light) { return std::uint16_t(std::uint32_t(light) * share >> 16); });
 }
 
+using Numbers = std::array<std::int32_t, placesAlong>;
+
+/// Of places at `from` + i `by` less turns[i], in squares: those before them, but from `least` to `most`.
+/// Four at a time.
+Numbers alongTurns(float from, float by, float least, float most) {
+    using Four = float __attribute__((vector_size(16)));
+    using FourInts = std::int32_t __attribute__((vector_size(16)));
+    constexpr std::size_t lanes = 4;
+    constexpr Four first{0, 1, 2, 3};
+    const Four low = Four{} + least, high = Four{} + most;
+    Numbers numbers;
+    for (std::size_t i = 0; i < placesAlong; i += lanes) {
+        Four turn;
+        std::memcpy(&turn, &turns[i], sizeof(turn));
+        Four place = (from + (first + float(i)) * by - turn) * placesAlong + 1;
+        place = place < high ? place : high;
+        place = place > low ? place : low;
+        const FourInts whole = __builtin_convertvector(place, FourInts);
+        std::memcpy(&numbers[i], &whole, sizeof(whole));
+    }
+    return numbers;
+}
+
 }  // namespace
 
 PlaceRange::PlaceRange(float top, float bottom) : top_(fixedHeight(top)), bottom_(fixedHeight(bottom)) {}
@@ -145,50 +169,75 @@ void PlacedEdge::add(PlaceWindings& windings, int square, std::int32_t winding,
 }
 
 PlaceSteps::PlaceSteps(int squares)
-    : turns_(turns),
-      squares_(squares),
+    : squares_(squares),
       last_(float(squares * placesAlong)),
       rowSize_(std::size_t(squares) * placesAlong + 1),
       steps_(rowSize_ * placesAlong) {}
 
-void PlaceSteps::add(int first, int end, glm::vec2 a, glm::vec2 b, float slope, std::int32_t winding) {
+void PlaceSteps::add(int first, int end, float x, float perRow, std::int32_t winding) {
+    const float inRow0 = x - float(first) * perRow;
+    const Numbers places = alongTurns(inRow0, perRow, 0, last_);
+    for (auto r = std::size_t(first); r < std::size_t(end); ++r) {
+        std::int16_t& step = steps_[r * rowSize_ + std::size_t(places[r])];
+        step = std::int16_t(step + winding);
+    }
+}
+
+void PlaceSteps::addLevel(int first, int end, glm::vec2 a, glm::vec2 b, std::int32_t winding) {
     hasLevel_ = true;
-    here_.resize(std::size_t(squares_));
-    fromHere_.resize(std::size_t(squares_) + 1);
-    const float top = float(first) / placesAlong, bottom = float(end) / placesAlong;
-    if (top < a.y)
-        add(PlacedEdge(a, 0), top, a.y, a.x, a.x, winding);
-    add(PlacedEdge(a, slope), std::max(top, a.y), std::min(bottom, b.y), std::min(a.x, b.x),
-        std::max(a.x, b.x), winding);
-    if (b.y < bottom)
-        add(PlacedEdge(b, 0), b.y, bottom, b.x, b.x, winding);
+    inColumn_.resize(std::size_t(squares_));
+    fromColumn_.resize(std::size_t(squares_));
+    const auto columnAt = [&](float x) {  // the first whose middle is not on its left
+        return int(std::ceil(std::clamp(x * placesAlong - 0.5f, 0.0f, last_)));
+    };
+    const bool goesRight = b.x > a.x;
+    const int left = columnAt(std::min(a.x, b.x)), right = columnAt(std::max(a.x, b.x));
+    // On the right of one that goes right is what lies above it.
+    startFrom(goesRight ? left : right, first, winding);
+    startFrom(goesRight ? right : left, end, -winding);
+    const std::int32_t below = goesRight ? -winding : winding;
+    const float slope = (b.y - a.y) / (b.x - a.x);
+    for (int square = left / placesAlong; square * placesAlong < right; ++square) {
+        const float inColumn0 = a.y + (float(square) + 0.5f / placesAlong - a.x) * slope;
+        const Numbers rows = alongTurns(inColumn0, slope / placesAlong, float(first), float(end));
+        LevelSteps& steps = inColumn_[std::size_t(square)];
+        const int begin = std::max(left - square * placesAlong, 0),
+                  behind = std::min(right - square * placesAlong, placesAlong);
+        for (auto c = std::size_t(begin); c < std::size_t(behind); ++c) {
+            std::int16_t& step = steps[std::size_t(rows[c])][c];
+            step = std::int16_t(step + below);
+        }
+    }
 }
 
-void PlaceSteps::add(const PlacedEdge& edge, float top, float bottom, float left, float right,
-                     std::int32_t winding) {
-    const PlaceRange range(top, bottom);
-    const auto square = [&](float x) { return int(std::clamp(x, 0.0f, float(squares_))); };
-    const int behind = right < 0 ? 0 : std::min(square(right) + 1, squares_);
-    for (int i = square(left); i < behind; ++i)
-        edge.add(here_[std::size_t(i)], i, winding, range);
-    range.add(fromHere_[std::size_t(behind)], winding);
+/// A winding number from a row down, in all columns from one on.
+void PlaceSteps::startFrom(int column, int row, std::int32_t winding) {
+    if (column >= squares_ * placesAlong)
+        return;
+    LevelSteps& steps = fromColumn_[std::size_t(column / placesAlong)];
+    std::int16_t& step = steps[std::size_t(row)][std::size_t(column % placesAlong)];
+    step = std::int16_t(step + winding);
 }
 
-void PlaceSteps::windingsOf(int square, Before& before, PlaceWindings& windings) const {
+void PlaceSteps::windingsOf(int square, Column& before, PlaceWindings& windings) const {
+    Column in{}, from{};
     for (std::size_t r = 0; r < placesAlong; ++r) {
         const std::int16_t* steps = &steps_[r * rowSize_ + std::size_t(square) * placesAlong];
-        std::int16_t winding = before.rows[r];
-        for (std::size_t c = 0; c < placesAlong; ++c)
-            windings[r * placesAlong + c] = winding = std::int16_t(winding + steps[c]);
-        before.rows[r] = winding;
+        if (hasLevel_) {
+            const Column &inHere = inColumn_[std::size_t(square)][r],
+                         &fromHere = fromColumn_[std::size_t(square)][r];
+            for (std::size_t c = 0; c < placesAlong; ++c) {
+                in[c] = std::int16_t(in[c] + inHere[c]);
+                from[c] = std::int16_t(from[c] + fromHere[c]);
+            }
+        }
+        std::int16_t winding = before[r];
+        for (std::size_t c = 0; c < placesAlong; ++c) {
+            winding = std::int16_t(winding + steps[c] + from[c]);
+            windings[r * placesAlong + c] = std::int16_t(winding + in[c]);
+        }
+        before[r] = winding;
     }
-    if (!hasLevel_)
-        return;
-    const PlaceWindings &here = here_[std::size_t(square)], &fromHere = fromHere_[std::size_t(square)];
-    for (std::size_t i = 0; i < windings.size(); ++i)
-        before.places[i] = std::int16_t(before.places[i] + fromHere[i]);
-    for (std::size_t i = 0; i < windings.size(); ++i)
-        windings[i] = std::int16_t(windings[i] + before.places[i] + here[i]);
 }
 
 TakenLight takeLight(PlaceLights& lights, const PlaceWindings& windings, bool isEvenOdd, float alpha) {

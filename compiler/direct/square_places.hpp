@@ -66,48 +66,44 @@ private:
 };
 
 /// Winding numbers of a row of squares for a layer of very many edges: what they change by from each place to
-/// the next. Whether a row of places is beside an edge is asked at one height, in its middle.
+/// the next. Of a row of places that an edge crosses it is asked in the middle which lie on its right; of a
+/// column that a nearly level one crosses, which lie above it.
 class PlaceSteps {
 public:
     explicit PlaceSteps(int squares);
     int squares() const { return squares_; }
 
-    /// Row r lies beside an edge that is at x in its middle, in squares.
-    void add(int r, float x, std::int32_t winding) {
-        const float place = std::clamp((x - turns_[std::size_t(r)]) * placesAlong + 1, 0.0f, last_);
-        std::int16_t& step = steps_[std::size_t(r) * rowSize_ + std::size_t(place)];
-        step = std::int16_t(step + winding);
-    }
-    /// Rows from `first` on, before `end`, lie beside a nearly level edge, from a down to b, and above and
-    /// below it beside its ends.
-    void add(int first, int end, glm::vec2 a, glm::vec2 b, float slope, std::int32_t winding);
+    /// Rows from `first` on, before `end`, lie beside an edge that is at x in the middle of the first, in
+    /// squares, and goes on by `perRow`.
+    void add(int first, int end, float x, float perRow, std::int32_t winding);
+    /// They lie beside a nearly level edge, from a down to b; above and below it, beside its ends.
+    void addLevel(int first, int end, glm::vec2 a, glm::vec2 b, std::int32_t winding);
     /// Gives the winding numbers of all squares, one after another, to take(square, windings), and forgets
     /// the steps.
     template <class Take>
     void takeAll(const Take& take);
 
 private:
-    /// On the left of a square.
-    struct Before {
-        std::array<std::int16_t, placesAlong> rows{};
-        PlaceWindings places{};
-    };
-    void add(const PlacedEdge& edge, float top, float bottom, float left, float right, std::int32_t winding);
-    void windingsOf(int square, Before& before, PlaceWindings& windings) const;
+    using Column = std::array<std::int16_t, placesAlong>;
+    /// By row and column of a square, and what is below it.
+    using LevelSteps = std::array<Column, placesAlong + 1>;
 
-    std::array<float, placesAlong> turns_;
+    void startFrom(int column, int row, std::int32_t winding);
+    /// `before`: the winding numbers on the left of the square, by row.
+    void windingsOf(int square, Column& before, PlaceWindings& windings) const;
+
     int squares_;
     float last_;
     std::size_t rowSize_;
     std::vector<std::int16_t> steps_;  ///< by row and place; the last place of each is beyond the row
-    // Of nearly level edges, by square.
+    // Of nearly level edges, by square: from a place down, in its column, and in all columns from there on.
     bool hasLevel_ = false;
-    std::vector<PlaceWindings> here_, fromHere_;  ///< in the square only; and in all on its right, too
+    std::vector<LevelSteps> inColumn_, fromColumn_;
 };
 
 template <class Take>
 void PlaceSteps::takeAll(const Take& take) {
-    Before before;
+    Column before{};
     PlaceWindings windings;
     for (int square = 0; square < squares_; ++square) {
         windingsOf(square, before, windings);
@@ -115,8 +111,8 @@ void PlaceSteps::takeAll(const Take& take) {
     }
     std::ranges::fill(steps_, std::int16_t(0));
     if (hasLevel_) {
-        std::ranges::fill(here_, PlaceWindings{});
-        std::ranges::fill(fromHere_, PlaceWindings{});
+        std::ranges::fill(inColumn_, LevelSteps{});
+        std::ranges::fill(fromColumn_, LevelSteps{});
     }
     hasLevel_ = false;
 }
