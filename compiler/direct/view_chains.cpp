@@ -41,11 +41,12 @@ public:
             findClipped();
     }
 
-    /// Null for items in groups without clips, of which all of the view is seen.
+    /// Null for items in groups without clips, of which all of the view is seen; an empty box for layers of
+    /// neither items nor clips, as of patterns that are not seen.
     const Box* ofLayer(std::uint32_t layer) const {
         const std::uint32_t item = picture_.itemOfLayer[layer];
         if (item == noIndex)
-            return &clipLayers_[layer];
+            return clipLayers_.empty() ? &nothing_ : &clipLayers_[layer];
         const std::uint32_t group = picture_.items[item].group;
         return isClipped_[group] ? &groups_[group] : nullptr;
     }
@@ -112,7 +113,8 @@ private:
     const Box all_;
     const std::vector<std::uint8_t> isClipped_;  ///< by group
     std::vector<Box> groups_;
-    std::vector<Box> clipLayers_;            ///< by layer; none without clips
+    std::vector<Box> clipLayers_;  ///< by layer; none without clips
+    const Box nothing_;
     std::vector<std::optional<Box>> known_;  ///< by clip
 };
 

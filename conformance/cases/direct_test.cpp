@@ -611,6 +611,14 @@ TEST(DrawnOnce, FilteredScenesGiveTheSameRowsEachTime) {
     EXPECT_EQ(pixels, 3 * 30 * 150);
 }
 
+/// A layer of its outline is left, which nothing paints or clips with.
+TEST(DrawnOnce, PatternsBesideTheViewShowNothing) {
+    const scene::Scene scene = sceneOf(
+        "<pattern id='p' width='9' height='9' patternUnits='userSpaceOnUse'><circle r='3'/></pattern>"
+        "<circle cx='30' cy='30' r='9'/><circle cx='-400' cy='30' r='40' fill='url(#p)'/>");
+    EXPECT_TRUE(compareDrawings(scene, "beside"));
+}
+
 /// A filter in a pattern is an image; a pattern of many tiles under a filter is compiled.
 TEST(DrawnOnce, FiltersInPatternsAreDrawnAndManyTilesAreNot) {
     const auto patternOf = [](double side, const char* inside, const char* outside) {
