@@ -14,12 +14,14 @@
 #include <vtm/compiler/stroke.hpp>
 #include "compiler/containers/hash.hpp"
 #include "compiler/containers/number_map.hpp"
+#include "compiler/filters/bounds.hpp"
 #include "compiler/lower/outline_cache.hpp"
 #include "compiler/lower/outlines_ahead.hpp"
 #include "compiler/lower/paints.hpp"
 #include "compiler/lower/repeated_paths.hpp"
 #include "compiler/patterns/pattern_images.hpp"
 #include "compiler/patterns/tile_range.hpp"
+#include "compiler/patterns/tiling_stack.hpp"
 #include "geometry/box.hpp"
 
 namespace vtm::compiler {
@@ -43,6 +45,11 @@ const limits::Place* firstPlace(const scene::Group& group) {
     return nullptr;
 }
 
+/// Steps of tiles are so much finer than those of the picture, for assets: rounding to both, and arcs of
+/// which a tile's are nearer to cubics, then stay within what ErrorBudget has for a step and an arc,
+/// √2 / 64 + arcSteps / 64 < arcSteps.
+constexpr double provenFineness = 64;
+
 class Lowering {
 public:
     Lowering(const scene::Scene& scene, const Excerpt& excerpt, const Lattice& lattice,
@@ -57,6 +64,7 @@ public:
           origins_(origins),
           tiles_(tiles),
           images_(images),
+          tilings_(lattice, budget, sharing == Sharing::All ? 1 : provenFineness),
           shown_(frame_),
           paints_(picture_, excerpt),
           repeated_(budget.fillChords()) {
@@ -90,7 +98,7 @@ private:
             if (const auto* item = std::get_if<scene::Item>(&node.value)) {
                 const auto* next =
                     i + 1 < g.children.size() ? std::get_if<scene::Item>(&g.children[i + 1].value) : nullptr;
-                if (sharing_ != Sharing::None && next && mayHideOutline(*item, *next)) {
+                if (sharing_ != Sharing::None && tilings_.empty() && next && mayHideOutline(*item, *next)) {
                     fillBelowStroke(*item, *next, outer, into);
                     ++i;
                 } else {
@@ -258,7 +266,10 @@ private:
         place_ = item.place;
         const Affine transform = outer == scene::identity ? item.transform : compose(outer, item.transform);
         if (const auto* pattern = std::get_if<scene::Pattern>(&item.paint)) {
-            patternItem(item, *pattern, transform, into);
+            if (tilings_.empty())
+                patternItem(item, *pattern, transform, into);
+            else
+                patternInTile(item, *pattern, transform, into);
             return;
         }
         const auto source = paints_.add(item.paint, transform);
@@ -284,10 +295,16 @@ private:
         if (!toPattern || seen.empty())
             return;
         const TileRange range = tilesIn(geometry::mapped(seen, *toPattern), pattern);
+        if (range.isFarAway())
+            return leaveOut("a pattern's tiles are too far from its origin");
         const TileContent content = tileCounter_.inOneTile(pattern);
         const double count = range.count(), inAll = count * (1 + content.tiles);
         const auto asImage = [&] { patternImage(item, pattern, toPicture, {shape, inAll, inTile}, into); };
         const double segments = count * std::max(content.segments, 1.0);
+        if (content.isOfColors && !isFarLargerThan(frame_, pattern, toPicture) &&
+            isWorthTiling(count, segments, content) && tilings_.isFine(pattern, toPicture))
+            return tiled(pattern, range, tilesSeen(pattern, range, *toPattern, shape),
+                         compose(lattice_.toSteps(), toPicture), tileGroup(item, shape, into));
         const bool canPlace = tiles_ && !isPlacedTile_ && tiles_->patterns.size() < maxPlacedFills &&
                               segmentsPlaced_ + segments <= double(maxPlacedSegments);
         if (canPlace && (count > fewTiles || (inAll > fewTiles && content.tiles <= double(maxTilesInTile)))) {
@@ -316,11 +333,69 @@ private:
                 tile(pattern, border, toPicture, {x, y}, group);
     }
 
+    /// Of colours. Assets place tiles that repeat, but lines across tiles are better long, and of many fills
+    /// that are placed each would have to be looked at beside all others.
+    bool isWorthTiling(double count, double segments, const TileContent& content) const {
+        if (pointsTiled_ > maxTiledPoints)
+            return false;
+        if (sharing_ == Sharing::All)
+            return segments <= double(maxTiledSegments);
+        if (sharing_ == Sharing::None || isPlacedTile_ || segments > double(maxTiledSegmentsOfAssets))
+            return false;
+        return count <= fewTiles ? content.reachesAcross
+                                 : tiles_ && tiles_->patterns.size() >= fewPlacedFills;
+    }
+
     std::uint32_t tileGroup(const scene::Item& item, std::uint32_t shape, std::uint32_t into) {
         const std::uint32_t index = openGroup(into);
         picture_.groups[index].opacity = item.opacity;
         picture_.groups[index].clip = addClip({{{shape, noIndex, false}}, noIndex});
         return index;
+    }
+
+    std::vector<TileSpan> tilesSeen(const scene::Pattern& pattern, const TileRange& range,
+                                    const Affine& toPattern, std::uint32_t shape) const {
+        TileSpans spans(range, pattern);
+        const double step = 2 / lattice_.stepsPerUnit();
+        const Point slack = glm::abs(scene::applyVector(toPattern, {step, 0})) +
+                            glm::abs(scene::applyVector(toPattern, {0, step}));
+        const Layer& layer = picture_.layers[shape];
+        for (std::uint32_t r = layer.firstRun; r < layer.firstRun + layer.runCount; ++r) {
+            limits::check();
+            for (std::uint32_t i = picture_.outlines.runs[r].first; i < picture_.outlines.runs[r].last; ++i)
+                spans.add(scene::apply(toPattern, lattice_.toUnits(picture_.outlines.points[i])),
+                          scene::apply(toPattern, lattice_.toUnits(picture_.outlines.points[i + 1])), slack);
+        }
+        return spans.take();
+    }
+
+    /// A pattern of colours in a tile of another. Its tiles are those in one of these.
+    void patternInTile(const scene::Item& item, const scene::Pattern& pattern, const Affine& transform,
+                       std::uint32_t into) {
+        const Tiling& outer = tilings_.innermost();
+        const std::uint32_t shape = geometryLayer(item, transform);
+        const Affine toOuter = compose(transform, pattern.transform);
+        const auto toPattern = scene::inverse(toOuter);
+        scene::Item moved = item;
+        moved.transform = transform;
+        const Box seen = boundsOf({scene::Node{std::move(moved)}}, scene::identity)
+                             .intersection({outer.tileMin(), outer.tileMax()});
+        if (!toPattern || seen.empty())
+            return;
+        const TileRange range = tilesIn(geometry::mapped(seen, *toPattern), pattern);
+        if (range.isFarAway())
+            return leaveOut("a pattern's tiles are too far from its origin");
+        tiled(pattern, range, allOf(range), toOuter, tileGroup(item, shape, into));
+    }
+
+    /// The content of tiles as if it were that of a group: each outline is that in all of them.
+    void tiled(const scene::Pattern& pattern, const TileRange& range, std::vector<TileSpan> rows,
+               const Affine& toOutside, std::uint32_t into) {
+        const auto toTile = tilings_.enter(pattern, range, std::move(rows), toOutside);
+        if (!toTile)
+            return;
+        group(*pattern.content, *toTile, openGroup(into));
+        tilings_.leave();
     }
 
     /// Tiles of a fill of many: those that are not placed.
@@ -402,7 +477,8 @@ private:
 
     std::uint32_t addLayer(const OutlineOrigin& origin, RunRange runs, scene::FillRule rule) {
         if (origins_)
-            origins_->push_back({origin.path, origin.transform, origin.stroke, rule});
+            origins_->push_back(
+                {tilings_.empty() ? origin.path : nullptr, origin.transform, origin.stroke, rule});
         picture_.layers.push_back({rule, runs.first, runs.count, place_});
         checkLimits();
         picture_.itemOfLayer.push_back(noIndex);
@@ -412,16 +488,19 @@ private:
     /// `sides`: of a stroke, what addStroke returns. A stroke beyond the limits is left out, with a warning.
     RunRange outline(const OutlineOrigin& origin, std::optional<std::uint32_t>* sides = nullptr) {
         const limits::Stage stage(origin.stroke ? "stroking" : "flattening", place_);
-        if (const auto made = ahead_ ? ahead_->take(origin) : std::nullopt) {
+        if (const auto made = ahead_ && tilings_.empty() ? ahead_->take(origin) : std::nullopt) {
             if (sides)
                 *sides = made->sides;
             return append(*made, picture_.outlines);
         }
         const std::size_t points = picture_.outlines.points.size(), runs = picture_.outlines.runs.size();
         try {
-            const auto first = appendOutline(picture_.outlines, origin);
-            if (sides)
+            if (!tilings_.empty()) {
+                tilings_.append(picture_.outlines, origin);
+                pointsTiled_ += picture_.outlines.points.size() - points;
+            } else if (const auto first = appendOutline(picture_.outlines, origin); sides) {
                 *sides = first;
+            }
         } catch (const LimitError& error) {
             if (!origin.stroke)
                 throw;
@@ -505,6 +584,8 @@ private:
     NumberMap clipLayers_;  ///< by a hash of their outlines
     TileCounter tileCounter_;
     double segmentsPlaced_ = 0, tilesLowered_ = 0;
+    std::size_t pointsTiled_ = 0;
+    TilingStack tilings_;        ///< around what is being lowered
     bool isPlacedTile_ = false;  ///< of what is being lowered
     Box shown_;                  ///< of what is being lowered: the picture or a tile
     limits::Place place_;        ///< of what is being lowered

@@ -48,6 +48,12 @@ inline constexpr std::size_t maxTilesInTile = 16'000;  ///< of a fill in a tile 
 inline constexpr std::size_t maxPlacedSegments = std::size_t(1) << 22;
 inline constexpr std::size_t maxCutTiles = 4 * maxTiles;  ///< of these, that are lowered one by one
 inline constexpr std::size_t maxPlacedFills = 256;
+/// Of a fill whose tiles become one outline for each shape in them, for pictures that are drawn once and for
+/// assets; and the points of all such outlines after which no more fills are lowered so.
+inline constexpr std::size_t maxTiledSegments = std::size_t(1) << 22, maxTiledPoints = std::size_t(1) << 23,
+                             maxTiledSegmentsOfAssets = std::size_t(1) << 14;
+/// After so many fills whose tiles are placed, assets have the others as outlines, too.
+inline constexpr std::size_t fewPlacedFills = 8;
 
 /// Outlines: a fill right below an opaque stroke of its own path may take an outline of the stroke's for its
 /// own, where that hides the difference (docs/regions.md). All: also, equal shapes of clips may be one layer,
@@ -57,7 +63,7 @@ enum class Sharing : std::uint8_t { None, Outlines, All };
 
 /// What the outline of a layer was made of.
 struct LayerOrigin {
-    std::shared_ptr<const scene::Path> path;
+    std::shared_ptr<const scene::Path> path;     ///< null of a shape in tiles that is one outline
     scene::Affine transform;                     ///< path space to picture
     const scene::StrokeStyle* stroke = nullptr;  ///< of the scene; null: filled
     scene::FillRule rule = scene::FillRule::NonZero;

@@ -317,6 +317,16 @@ private:
     std::size_t sideRuns_ = 0;
 };
 
+/// Calls visit(start, ends of the chords).
+template <class Visit>
+void forEachContour(std::span<const Point> points, std::span<const std::uint32_t> starts,
+                    const Visit& visit) {
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+        const std::size_t first = starts[i], end = i + 1 < starts.size() ? starts[i + 1] : points.size();
+        visit(points[first], points.subspan(first + 1, end - first - 1));
+    }
+}
+
 }  // namespace
 
 std::optional<std::uint32_t> addStroke(Outlines& outlines, const scene::Path& path,
@@ -373,16 +383,23 @@ bool addContours(Outlines& outlines, const FlatContours& contours, Point by, glm
     std::vector<Point> moved(contours.points.size());
     std::transform(contours.points.begin(), contours.points.end(), moved.begin(),
                    [by](Point p) { return p + by; });
-    const std::span<const Point> points(moved);
-    for (std::size_t i = 0; i < contours.starts.size(); ++i) {
-        const std::size_t first = contours.starts[i],
-                          end = i + 1 < contours.starts.size() ? contours.starts[i + 1] : points.size();
-        sink.start(points[first]);
-        if (end > first + 1)
-            sink.linesInside(points.subspan(first + 1, end - first - 1));
-    }
+    forEachContour(moved, contours.starts, [&](Point start, std::span<const Point> ends) {
+        sink.start(start);
+        if (!ends.empty())
+            sink.linesInside(ends);
+    });
     sink.finish();
     return true;
+}
+
+void addCutContours(Outlines& outlines, const FlatContours& contours, glm::dvec2 clampMin,
+                    glm::dvec2 clampMax) {
+    RunSink sink(outlines, clampMin, clampMax);
+    forEachContour(contours.points, contours.starts, [&](Point start, std::span<const Point> ends) {
+        sink.start(start);
+        sink.lines(ends);
+    });
+    sink.finish();
 }
 
 double largestStretch(const Affine& m) {

@@ -54,6 +54,9 @@ FlatContours flatten(const scene::Path& path, const scene::Affine& toSteps, Chor
 /// Appends them moved by `by`, as addOutline() does; nothing, and returns false, unless all lie in the box.
 bool addContours(Outlines& outlines, const FlatContours& contours, scene::Point by, glm::dvec2 clampMin,
                  glm::dvec2 clampMax);
+/// Appends them cut at the box, as addOutline() does; their `min` and `max` do not matter.
+void addCutContours(Outlines& outlines, const FlatContours& contours, glm::dvec2 clampMin,
+                    glm::dvec2 clampMax);
 
 /// A box in a path's space.
 struct PathBox {

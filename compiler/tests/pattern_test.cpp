@@ -100,11 +100,52 @@ TEST(ManyTiles, CutByOutlinesAreAnImage) {
 }
 
 TEST(ManyTiles, FarBelowAPixelAreTheirMean) {
-    const Result result = compiled(picture({filled(scene::rectangle({0, 0}, {side, side}), stripes(1e-7))}));
-    expectAnImage(result);
-    const image::Raster raster = drawn(result, 64);
-    for (const auto& [x, y] : {std::pair(0, 0), std::pair(31, 17), std::pair(63, 63)})
-        EXPECT_NEAR(raster.pixel(x, y)[0], 0.5, 1.0 / 255);
+    for (const double tile : {1e-7, 1e-20}) {
+        const Result result =
+            compiled(picture({filled(scene::rectangle({0, 0}, {side, side}), stripes(tile))}));
+        expectAnImage(result);
+        const image::Raster raster = drawn(result, 64);
+        for (const auto& [x, y] : {std::pair(0, 0), std::pair(31, 17), std::pair(63, 63)})
+            EXPECT_NEAR(raster.pixel(x, y)[0], 0.5, 1.0 / 255) << tile;
+    }
+}
+
+/// Shapes that reach across tiles are one outline in all of them, different in each fill.
+TEST(Tiles, OfManyFillsAreNotTakenForEachOther) {
+    Pattern pattern = stripes(10);
+    Group content = *pattern.content;
+    Path star{scene::MoveTo{{0, 5}}};
+    for (int i = 0; i < 40; ++i)
+        star.push_back(
+            scene::LineTo{5.0 + (i % 2 == 0 ? 4.9 : 2) * Point(std::cos(i / 6.0), std::sin(i / 6.0))});
+    star.push_back(scene::LineTo{{10, 5}});
+    content.children.push_back({filled(std::move(star), Color{0, 0, 1, 1})});
+    pattern.content = std::make_shared<const Group>(std::move(content));
+    std::vector<Item> fills;
+    for (int i = 0; i < 30; ++i) {
+        const Point at(4 + i % 6 * 42, 4 + i / 6 * 50);
+        fills.push_back(filled(scene::rectangle(at, at + Point(30 + i % 3, 37)), pattern));
+    }
+    const scene::Scene scene = picture(std::move(fills));
+    Options options;
+    options.instances = false;
+    const image::Raster with = drawn(compiled(scene), 256), without = drawn(compile(scene, options), 256);
+    for (std::size_t i = 0; i < with.rgba.size(); ++i)
+        ASSERT_NEAR(with.rgba[i], without.rgba[i], 1.5 / 255) << i;
+    double expected = 0;
+    for (int i = 0; i < 30; ++i)
+        expected += (30 + i % 3) * 37 / (side * side);
+    EXPECT_GE(mean(with), expected / 2);
+    EXPECT_LE(mean(with), expected);
+}
+
+TEST(ManyTiles, TooFarFromTheirOriginAreLeftOut) {
+    Pattern pattern = stripes(10);
+    pattern.transform = scene::translation(1e300, 0);
+    const Result result = compiled(picture({filled(scene::rectangle({0, 0}, {side, side}), pattern)}));
+    ASSERT_EQ(result.warnings.size(), 1u);
+    EXPECT_NE(result.warnings[0].find("too far from its origin; it is left out"), std::string::npos);
+    EXPECT_EQ(mean(drawn(result, 16)), 0);
 }
 
 TEST(ManyTiles, StandWhereTheirTilesStand) {

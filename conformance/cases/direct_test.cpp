@@ -611,6 +611,55 @@ TEST(DrawnOnce, FilteredScenesGiveTheSameRowsEachTime) {
     EXPECT_EQ(pixels, 3 * 30 * 150);
 }
 
+// ---- Patterns ---------------------------------------------------------------------------------------
+
+/// What tiles may hold: shapes that end in them, reach beyond them or run through them, in groups, clips,
+/// masks and tiles.
+constexpr const char* tileContents[]{
+    "<circle cx='4' cy='3' r='2.5' fill='#268'/>",
+    "<rect width='8' height='6' fill='#fed'/><path d='M0,3H8' stroke='#246' stroke-width='.7'/>",
+    "<path d='M-3,-2L20,13M9,-4L-9,14' stroke='#a24' stroke-width='1.3' stroke-opacity='.6'/>",
+    "<path fill-rule='evenodd' d='M-2,1L10,4 3,-3 2,9 9,-1Z' fill='#382'/><circle r='2'/>",
+    "<g opacity='.5'><rect x='-1' y='2' width='7' height='9' fill='#c40'/><circle cx='5' cy='4' r='2'/></g>",
+    "<clipPath id='c'><circle cx='6' cy='3' r='3'/></clipPath>"
+    "<g clip-path='url(#c)'><path d='M0,0H8V6H0Z' fill='#06c'/><path d='M0,0L8,6' stroke='#fff'/></g>",
+    "<mask id='m'><rect x='2' y='1' width='5' height='9' fill='#999'/></mask>"
+    "<g mask='url(#m)'><circle cx='4' cy='3' r='4' fill='#808'/></g>",
+    "<pattern id='q' width='1.1' height='.9' patternUnits='userSpaceOnUse' patternTransform='rotate(30)'>"
+    "<circle cx='.5' cy='.4' r='.3' fill='#b30'/></pattern><circle cx='5' cy='3' r='4' fill='url(#q)'/>"};
+
+TEST(DrawnOnce, PatternsLookAsCompiledOnes) {
+    for (const char* content : tileContents)
+        for (const char* transform : {"", "rotate(25)", "matrix(1 .3 -.4 -.8 3 5)"}) {
+            const std::string fill = fmt::format(
+                "<pattern id='p' width='8' height='6' patternUnits='userSpaceOnUse' patternTransform='{}'>{}"
+                "</pattern><circle cx='20' cy='30' r='24' fill='url(#p)' opacity='.8'/>"
+                "<path d='M30,60L60,5L50,40Z' fill='url(#p)' stroke='#000'/>"
+                "<rect x='45' y='45' width='30' height='12' fill='url(#p)'/>",
+                transform, content);
+            EXPECT_TRUE(compareDrawings(sceneOf(fill), fmt::format("{} {}", content, transform)));
+        }
+}
+
+/// More tiles than are made one by one.
+TEST(DrawnOnce, ManyFillsOfPatternsAreAllDrawn) {
+    constexpr int across = 64;
+    std::string content = "<pattern id='p' width='.1' height='.1'><rect width='.05' height='1'/></pattern>";
+    for (int i = 0; i < across * across; ++i)
+        content +=
+            fmt::format("<rect x='{}' y='{}' width='1' height='1' fill='url(#p)'/>", i % across, i / across);
+    const scene::Scene scene = sceneOf(content);
+    const auto drawing = compiler::ViewDrawing::make(scene, wholePicture(scene, 64));
+    ASSERT_TRUE(drawing);
+    EXPECT_TRUE(drawing->warnings().empty());
+    const image::Raster drawn = drawing->draw();
+    double sum = 0;
+    for (int y = 0; y < drawn.height; ++y)
+        for (int x = 0; x < drawn.width; ++x)
+            sum += drawn.pixel(x, y)[3];
+    EXPECT_NEAR(sum / (64 * 64), 0.5, 0.5 / 255);
+}
+
 /// A layer of its outline is left, which nothing paints or clips with.
 TEST(DrawnOnce, PatternsBesideTheViewShowNothing) {
     const scene::Scene scene = sceneOf(
@@ -619,12 +668,13 @@ TEST(DrawnOnce, PatternsBesideTheViewShowNothing) {
     EXPECT_TRUE(compareDrawings(scene, "beside"));
 }
 
-/// A filter in a pattern is an image; a pattern of many tiles under a filter is compiled.
-TEST(DrawnOnce, FiltersInPatternsAreDrawnAndManyTilesAreNot) {
+/// A filter in a pattern is an image; a pattern of many tiles of gradients under a filter is compiled.
+TEST(DrawnOnce, FiltersInPatternsAreDrawnAndManyTilesOfGradientsAreNot) {
     const auto patternOf = [](double side, const char* inside, const char* outside) {
         return sceneOf(fmt::format(
-            "<filter id='f'><feGaussianBlur stdDeviation='.5'/></filter><pattern id='p' width='{0}' "
-            "height='{0}' patternUnits='userSpaceOnUse'><circle r='{0}' {1}/></pattern>"
+            "<filter id='f'><feGaussianBlur stdDeviation='.5'/></filter><linearGradient id='g'><stop/>"
+            "<stop offset='1' stop-color='red'/></linearGradient><pattern id='p' width='{0}' "
+            "height='{0}' patternUnits='userSpaceOnUse'><circle r='{0}' fill='url(#g)' {1}/></pattern>"
             "<rect width='100' height='100' fill='url(#p)' {2}/>",
             side, inside, outside));
     };
