@@ -85,7 +85,8 @@ void BandSweep::run(int band, bool begins, std::vector<asset::Chord>& chords) {
     }
     if (state_.remembersMuch() || (passedOn_ > fewToBegin && 2 * chains.size() > passedOn_))
         return passOn(chains, top, bottom);
-    if (begins || isPassedOver_ || passedOn_ > 0 || chains_.areLeftOut())
+    const bool beginsHere = begins || isPassedOver_ || passedOn_ > 0 || chains_.areLeftOut();
+    if (beginsHere)
         begin(chains.first(above), top);
     const bool isTangled = this->isTangled(top);
     if (isTangled && sorted_.size() > manyTangled && sampled_)
@@ -95,15 +96,26 @@ void BandSweep::run(int band, bool begins, std::vector<asset::Chord>& chords) {
         return leave(top);
     passedOn_ = 0;
     toCome_ = chains.subspan(above);
+    const std::size_t chordsBefore = chords.size();
+    const auto giveUp = [&](float y) {
+        // In thin slabs a sweep of so much is not exact either: of a row that took too much nothing is kept.
+        if (sampled_ && beginsHere && y <= top + 1) {
+            chords.resize(chordsBefore);
+            moveState(0);
+            passedOn_ = chains.size();
+            y = top;
+        }
+        passOn(chains, y, bottom);
+    };
     for (float y = top; y < bottom;) {
         limits::check();
         steps_ = 0;
         thinnest_ = std::max(leastHeight, float(active_.size()) / looksInRow);
         if (state_.remembersMuch() || stripSteps_ > mayTake(y))
-            return passOn(chains, y, bottom);
+            return giveUp(y);
         if (!slab({y, y + height_})) {
             if (!mayBeThinner(y))
-                return passOn(chains, y, bottom);
+                return giveUp(y);
             height_ *= 0.5f;
             stripSteps_ += active_.size() + events_.size();
             continue;
@@ -250,8 +262,11 @@ bool BandSweep::slab(Slab slab) {
     look(slab);
     lookAtBeginning(slab);
     wouldTake_ = gather() ? stepsOfGroups(slab.bottom) : std::numeric_limits<std::size_t>::max();
-    if (wouldTake_ > mostInSlab_)
+    if (wouldTake_ > mostInSlab_) {
+        for (Active* a : active_)  // where look() finds them again
+            a->next = a->x;
         return false;
+    }
     toCome_ = toCome_.subspan(count);
     state_.forgetManyRegions();
     sweepGroups(slab);

@@ -53,16 +53,25 @@ void SampledRows::run(std::span<const std::uint32_t> numbers, float top, float b
     while (top < bottom) {
         const float end = std::min(std::floor(top) + 1, bottom);
         take(top, end);
-        if (cuts_.size() > 2 * chainsBefore) {  // the row before tells little of this one
-            const std::vector<CutChain> before = cuts_;
-            along = drawPixels(top, end, 1);
-            std::ranges::fill(sums_, glm::vec4(0));
-            cuts_ = before;
-        }
+        const bool isLikeBefore = cuts_.size() <= 2 * chainsBefore;
         chainsBefore = cuts_.size();
-        along = drawPixels(top, end, along);
+        along = isLikeBefore ? drawPixels(top, end, along) : drawFirst(top, end);
         finishRow(top, end, chords);
         top = end;
+    }
+}
+
+/// Of which the row before tells little: drawn again as long as squares may be half as wide. Returns what
+/// drawPixels() does.
+int SampledRows::drawFirst(float top, float bottom) {
+    const std::vector<CutChain> before = cuts_;
+    for (int along = 1;;) {
+        const int next = drawPixels(top, bottom, along);
+        if (next < 2 * along)
+            return next;
+        std::ranges::fill(sums_, glm::vec4(0));
+        cuts_ = before;
+        along = next;
     }
 }
 
@@ -208,7 +217,9 @@ void SampledRows::sortTouches() {
 }
 
 /// The layer that the touches are of. Between its chains that begin or end in the row there may be level
-/// sides, of which no chain tells: there, all squares are looked at.
+/// sides, of which no chain tells: there, all squares are looked at. On the right of them winding numbers are
+/// the same at all heights, and those that go on below tell by how much they have changed: a chain that ends
+/// may go up again and down once more.
 void SampledRows::drawTouched(const Layer& layer) {
     std::int32_t first = lights_.squares(), last = -1, lastEnd = -1;
     for (const Touch& touch : touches_) {
@@ -231,7 +242,7 @@ void SampledRows::drawTouched(const Layer& layer) {
         for (; end < touches_.size() && touches_[end].first <= covered; ++end) {
             const Touch& touch = touches_[end];
             covered = std::max(covered, (touch.spans ? touch.last : lastEnd) + 1);
-            after += touch.spans ? touch.winding : 0;
+            after += touch.bottom >= row_.bottom ? touch.winding : 0;
         }
         drawRun({std::span(touches_).subspan(i, end - i), std::max(begin, 0),
                  std::min(covered, lights_.squares()), winding, after},
@@ -278,8 +289,8 @@ void SampledRows::drawRun(const Run& run, const Layer& layer) {
         // Where a chain begins or ends, the layer may still be on one side of it only.
         const bool isLeftOfIt = count == 1 && next == run.touches.size() && !layer.isInside(run.windingRight),
                    isRightOfIt = count == 1 && next == 1 && !layer.isInside(run.windingLeft);
-        if ((isLeftOfIt && apartFrom(lights_.darkLeft(square), *active_[0], square).most <= 0) ||
-            (isRightOfIt && apartFrom(lights_.darkRight(square), *active_[0], square).least >= 0))
+        if ((isLeftOfIt && isDarkBeside(*active_[0], square, true)) ||
+            (isRightOfIt && isDarkBeside(*active_[0], square, false)))
             continue;
         if (hasEnds)
             for (std::size_t i = 0; i < onLeft_.size(); ++i)
@@ -325,8 +336,7 @@ bool SampledRows::drawOne(Touch& touch, std::int32_t square, std::int32_t windin
             cover(square, layer);
         return true;
     }
-    if (isLeft ? apartFrom(lights_.darkLeft(square), touch, square).most <= 0
-               : apartFrom(lights_.darkRight(square), touch, square).least >= 0)
+    if (isDarkBeside(touch, square, isLeft))
         return true;
     ++asked_;
     bool isDark = false;
@@ -349,70 +359,93 @@ bool SampledRows::isDarkBetween(const Touch& left, const Touch& right, std::int3
     return left.spans && right.spans && left.isStraight && right.isStraight &&
            left.line.enter <= right.line.enter && left.line.leave <= right.line.leave &&
            !layer.isInside(winding) && !layer.isInside(winding + left.winding + right.winding) &&
-           (apartFrom(lights_.darkLeft(square), right, square).most <= 0 ||
-            apartFrom(lights_.darkRight(square), left, square).least >= 0);
+           (isDarkBeside(right, square, true) || isDarkBeside(left, square, false));
 }
 
-/// Calls visit(edge's upper end, its lower end) for the parts of a chain's edges in the square, from the top.
+/// Calls visit(upper end, lower end, side) from the top on for parts of a chain's edges that are in the
+/// square, on its left or on its right. Beside it, they are moved onto its border.
 template <class Visit>
 void SampledRows::visitParts(const Touch& touch, std::int32_t square, const Visit& visit) const {
     const CutChain& cut = cuts_[touch.cut];
     const auto left = float(square), right = float(square + 1);
     for (std::uint32_t at = cut.at; at < cut.last && vertices_[at].y < row_.bottom; ++at) {
         const glm::vec2 a = row_.inSquares(vertices_[at]), b = row_.inSquares(vertices_[at + 1]), d = b - a;
-        if (d.y <= 0 || b.y <= 0 || std::max(a.x, b.x) < left || std::min(a.x, b.x) > right)
+        if (d.y <= 0 || b.y <= 0)
             continue;
-        const float toLeft = (left - a.x) / d.x, toRight = (right - a.x) / d.x, toTop = -a.y / d.y,
-                    toBottom = (1 - a.y) / d.y;
-        const bool isUpright = d.x == 0;
-        const float begin = std::max({0.0f, toTop, isUpright ? 0.0f : std::min(toLeft, toRight)}),
-                    end = std::min({1.0f, toBottom, isUpright ? 1.0f : std::max(toLeft, toRight)});
-        if (begin < end)
-            visit(a + begin * d, a + end * d);
+        float ends[4]{std::max(0.0f, -a.y / d.y), 0, 0, std::min(1.0f, (1 - a.y) / d.y)};
+        ends[1] = ends[2] = ends[0];
+        if (d.x != 0) {
+            const auto [first, second] = std::minmax({(left - a.x) / d.x, (right - a.x) / d.x});
+            ends[1] = std::clamp(first, ends[0], std::max(ends[0], ends[3]));
+            ends[2] = std::clamp(second, ends[0], std::max(ends[0], ends[3]));
+        }
+        const auto onBorder = [&](glm::vec2 p) { return glm::vec2(std::clamp(p.x, left, right), p.y); };
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (ends[i] >= ends[i + 1])
+                continue;
+            const float middle = a.x + 0.5f * (ends[i] + ends[i + 1]) * d.x;
+            visit(onBorder(a + ends[i] * d), onBorder(a + ends[i + 1] * d),
+                  middle < left    ? Side::Left
+                  : middle > right ? Side::Right
+                                   : Side::In);
+        }
     }
 }
 
-/// As far as they are in the square.
-SampledRows::Apart SampledRows::apartFrom(const RowLine& line, const Touch& touch,
-                                          std::int32_t square) const {
+/// At all heights of the chain in the row but where it is beside the square, on that side.
+SampledRows::Apart SampledRows::apartFrom(const RowLine& line, const Touch& touch, std::int32_t square,
+                                          Side without) const {
     if (touch.isStraight && touch.spans) {
         const float enter = touch.line.enter - line.enter, leave = touch.line.leave - line.leave;
         return {std::min(enter, leave), std::max(enter, leave)};
     }
     Apart apart{INFINITY, -INFINITY};
-    bool isThere = false;
-    visitParts(touch, square, [&](glm::vec2 a, glm::vec2 b) {
-        isThere = true;
+    visitParts(touch, square, [&](glm::vec2 a, glm::vec2 b, Side side) {
+        if (side != Side::In && side == without)
+            return;
         for (const glm::vec2 p : {a, b}) {
             apart.least = std::min(apart.least, p.x - line.at(p.y));
             apart.most = std::max(apart.most, p.x - line.at(p.y));
         }
     });
-    return isThere ? apart : Apart{-INFINITY, INFINITY};
+    return apart.least <= apart.most ? apart : Apart{-INFINITY, INFINITY};
 }
 
-/// All is dark on one side of the chain, as far as it is in the square.
+/// Whether all of a square that is on one side of a chain is known to be dark. Where the chain is beside the
+/// square, all of it or nothing is on that side.
+bool SampledRows::isDarkBeside(const Touch& touch, std::int32_t square, bool isLeft) const {
+    return isLeft ? apartFrom(lights_.darkLeft(square), touch, square, Side::Left).most <= 0
+                  : apartFrom(lights_.darkRight(square), touch, square, Side::Right).least >= 0;
+}
+
+/// All is dark on one side of the chain.
 void SampledRows::keepDark(std::int32_t square, const Touch& touch, bool isLeft) {
+    const Side none = isLeft ? Side::Left : Side::Right, all = isLeft ? Side::Right : Side::Left;
     RowLine line = touch.line;
     if (!touch.isStraight || !touch.spans) {
-        glm::vec2 first(0), last(0);
-        bool isFirst = true;
-        visitParts(touch, square, [&](glm::vec2 a, glm::vec2 b) {
-            if (std::exchange(isFirst, false))
+        glm::vec2 first(0), last(0);  // in the square
+        bool isIn = false;
+        std::optional<Side> sideAbove, sideBelow;
+        visitParts(touch, square, [&](glm::vec2 a, glm::vec2 b, Side side) {
+            if (!sideAbove)
+                sideAbove = side;
+            sideBelow = side;
+            if (side != Side::In)
+                return;
+            if (!std::exchange(isIn, true))
                 first = a;
             last = b;
         });
-        // Above and below a chain that begins or ends in the square, no place may be on that side of the
-        // line.
+        // Above and below a chain that begins or ends in the row, no place may be on that side of the line.
         const auto isBeside = [&](float x) { return isLeft ? x <= float(square) : x >= float(square + 1); };
-        const bool begins = touch.top > row_.top && first.y <= row_.heightOf(touch.top),
-                   ends = touch.bottom < row_.bottom && last.y >= row_.heightOf(touch.bottom);
+        const bool begins = touch.top > row_.top && sideAbove != none,
+                   ends = touch.bottom < row_.bottom && sideBelow != none;
         if (last.y - first.y < leastHeight || (begins && !isBeside(first.x)) || (ends && !isBeside(last.x)))
             return;
         const float slope = (last.x - first.x) / (last.y - first.y);
         line = {first.x - first.y * slope, last.x + (1 - last.y) * slope};
     }
-    const Apart apart = apartFrom(line, touch, square);
+    const Apart apart = apartFrom(line, touch, square, all);
     if (isLeft)
         lights_.keepDarkLeft(square, line.movedBy(apart.least));
     else

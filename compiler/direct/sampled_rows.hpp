@@ -79,11 +79,13 @@ private:
         bool spans;
         float left, right;  ///< in the row
     };
+    enum class Side : std::uint8_t { In, Left, Right };  ///< of a square
     /// How far a chain is right of a line, at least and at most.
     struct Apart {
         float least, most;
     };
 
+    int drawFirst(float top, float bottom);
     int drawPixels(float top, float bottom, int along);
     std::size_t endOfLayer(std::size_t first) const;
     bool isDense(std::size_t chains) const;
@@ -103,7 +105,8 @@ private:
                        const Layer& layer) const;
     template <class Visit>
     void visitParts(const Touch& touch, std::int32_t square, const Visit& visit) const;
-    Apart apartFrom(const RowLine& line, const Touch& touch, std::int32_t square) const;
+    Apart apartFrom(const RowLine& line, const Touch& touch, std::int32_t square, Side without) const;
+    bool isDarkBeside(const Touch& touch, std::int32_t square, bool isLeft) const;
     void keepDark(std::int32_t square, const Touch& touch, bool isLeft);
     void findPieces(Touch& touch);
     void forgetPieces();

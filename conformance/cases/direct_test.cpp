@@ -245,6 +245,42 @@ TEST(DrawnOnce, ManyLayersAreTheMeansOfLargerPictures) {
                 << inGroup << ", " << isGrid;
 }
 
+/// Opaque: four corners each, which cross themselves, or two strokes across each other.
+std::string manyMarks(int count, bool areStrokes) {
+    Numbers numbers;
+    const auto by = [&] { return numbers.between() / 8 - 4; };
+    std::string content;
+    for (int i = 0; i < count; ++i) {
+        content += fmt::format("<path d='M{:.3f},{:.3f}", numbers.between(), numbers.between());
+        content += areStrokes ? std::string("m-1,0h2m-1,-1v2' stroke-width='.5' stroke")
+                              : fmt::format("l{:.3f},{:.3f} {:.3f},{:.3f} {:.3f},{:.3f}z' fill", by(), by(),
+                                            by(), by(), by(), by());
+        content +=
+            fmt::format("='#{:06x}'{}/>", numbers.color(),
+                        areStrokes ? fmt::format(" transform='rotate({:.1f})'", numbers.between()) : "");
+    }
+    return content;
+}
+
+std::string randomCurve(int segments) {
+    Numbers numbers;
+    std::string path = "<path fill='#264' d='M32,32";
+    for (int i = 0; i < segments; ++i)
+        path += fmt::format("Q{:.3f},{:.3f} {:.3f},{:.3f}", numbers.between(), numbers.between(),
+                            numbers.between(), numbers.between());
+    return path + "Z'/>";
+}
+
+/// Chains that begin and end between others in a row of squares, that go up and down again there, that leave
+/// a square at its side; and slabs that are begun anew because they would take too much.
+TEST(DrawnOnce, WhatIsAskedForAtPlacesIsTheMeanOfLargerPictures) {
+    for (const int count : {6000, 8000, 10000, 16000}) {
+        EXPECT_LE(differenceFromLarger(sceneOf(manyMarks(count, false)), 4), 1.5) << count;
+        EXPECT_LE(differenceFromLarger(sceneOf(manyMarks(count, true)), 4), 1.5) << count;
+        EXPECT_LE(differenceFromLarger(sceneOf(randomCurve(count)), 4), 2.5) << count;
+    }
+}
+
 /// Beside what they clip, round it, round it with a hole there, and across it.
 TEST(DrawnOnce, ClipsThatDoNotMeetWhatTheyClipLetAllOfItThroughOrNothing) {
     for (const char* clip :
