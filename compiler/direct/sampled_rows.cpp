@@ -392,7 +392,7 @@ void SampledRows::visitParts(const Touch& touch, std::int32_t square, const Visi
     }
 }
 
-/// At all heights of the chain in the row but where it is beside the square, on that side.
+/// At all heights of the chain in the row but where it is on one side of the square, left or right.
 SampledRows::Apart SampledRows::apartFrom(const RowLine& line, const Touch& touch, std::int32_t square,
                                           Side without) const {
     if (touch.isStraight && touch.spans) {
@@ -401,7 +401,7 @@ SampledRows::Apart SampledRows::apartFrom(const RowLine& line, const Touch& touc
     }
     Apart apart{INFINITY, -INFINITY};
     visitParts(touch, square, [&](glm::vec2 a, glm::vec2 b, Side side) {
-        if (side != Side::In && side == without)
+        if (side == without)
             return;
         for (const glm::vec2 p : {a, b}) {
             apart.least = std::min(apart.least, p.x - line.at(p.y));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include <tbb/blocked_range.h>
@@ -286,21 +287,16 @@ std::vector<LayersAtOnce> divided(const LoweredScene& picture) {
 /// Adds the chains of a layer.
 void ViewChains::addLayer(const LoweredScene& picture, std::uint32_t index, const scene::Affine& toPixels,
                           Builder& builder) {
-    const std::vector<Run>& runs = picture.outlines.runs;
     const Layer& layer = picture.layers[index];
-    for (std::uint32_t r = layer.firstRun; r < layer.firstRun + layer.runCount;) {
-        const std::uint32_t first = runs[r].first;
-        std::uint32_t last = runs[r++].last;
-        while (r < layer.firstRun + layer.runCount && runs[r].first == last)
-            last = runs[r++].last;
-        std::vector<glm::vec2>& points = builder.points();
-        points.resize(last - first + 1);
-        for (std::uint32_t i = first; i <= last; ++i) {
-            const LatticePoint p = picture.outlines.points[i];
-            points[i - first] = toPixels[0] * double(p.x) + toPixels[1] * double(p.y) + toPixels[2];
-        }
-        builder.add(index);
-    }
+    picture.outlines.forEachContour(
+        layer.firstRun, layer.runCount, [&](std::span<const LatticePoint> contour) {
+            std::vector<glm::vec2>& points = builder.points();
+            points.resize(contour.size());
+            std::ranges::transform(contour, points.begin(), [&](LatticePoint p) -> glm::vec2 {
+                return toPixels[0] * double(p.x) + toPixels[1] * double(p.y) + toPixels[2];
+            });
+            builder.add(index);
+        });
 }
 
 ViewChains::ViewChains(const LoweredScene& picture, const Lattice& lattice, const asset::View& view) {

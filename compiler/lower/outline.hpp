@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <vtm/scene/affine.hpp>
@@ -33,6 +34,18 @@ struct Outlines {
     std::vector<Run> runs;
 
     Chord chord(std::uint32_t i) const { return {points[i], points[i + 1]}; }
+
+    /// Calls visit(points) for each contour of some runs; its last point is its first.
+    template <class Visit>
+    void forEachContour(std::uint32_t firstRun, std::uint32_t runCount, const Visit& visit) const {
+        for (std::uint32_t r = firstRun, end = firstRun + runCount; r < end;) {
+            const std::uint32_t first = runs[r].first;
+            std::uint32_t last = runs[r++].last;
+            while (r < end && runs[r].first == last)
+                last = runs[r++].last;
+            visit(std::span(points).subspan(first, last + 1 - first));
+        }
+    }
 };
 
 /// Appends the closed contours of `path` under `toSteps` (path space to lattice steps): every subpath

@@ -47,13 +47,15 @@ TileContent& operator+=(TileContent& a, const TileContent& b) {
 
 }  // namespace
 
+double longerSideOf(const scene::Pattern& pattern, const scene::Affine& toOutside) {
+    const glm::dvec2 period = pattern.max - pattern.min;
+    return std::max(glm::length(toOutside[0]) * period.x, glm::length(toOutside[1]) * period.y);
+}
+
 bool isFarLargerThan(const geometry::Box& outside, const scene::Pattern& pattern,
                      const scene::Affine& toOutside) {
     constexpr double most = 2;
-    const glm::dvec2 period = pattern.max - pattern.min;
-    const double longer =
-        std::max(glm::length(toOutside[0]) * period.x, glm::length(toOutside[1]) * period.y);
-    return !(longer <= most * std::max(outside.width(), outside.height()));
+    return !(longerSideOf(pattern, toOutside) <= most * std::max(outside.width(), outside.height()));
 }
 
 TileSpans::TileSpans(const TileRange& range, const scene::Pattern& pattern)

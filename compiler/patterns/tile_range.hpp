@@ -38,6 +38,8 @@ inline TileRange tilesIn(const geometry::Box& box, const scene::Pattern& pattern
     return {first, glm::max(first, end - 1.0)};
 }
 
+/// Of a tile, in the space that `toOutside` leads to.
+double longerSideOf(const scene::Pattern& pattern, const scene::Affine& toOutside);
 /// Whether a tile is much longer than a box in the space that `toOutside` leads to. Then its content is not
 /// worth making as a whole.
 bool isFarLargerThan(const geometry::Box& outside, const scene::Pattern& pattern,

@@ -49,14 +49,7 @@ Edges between(Edges before, const Edges& behind, Coord LatticePoint::*axis, Coor
 class TileContours {
 public:
     TileContours(const Outlines& tile, Coord side) : side_(side) {
-        const std::vector<Run>& runs = tile.runs;
-        for (std::size_t r = 0; r < runs.size();) {
-            const std::uint32_t first = runs[r].first;
-            std::uint32_t last = runs[r++].last;
-            while (r < runs.size() && runs[r].first == last)
-                last = runs[r++].last;
-            take(Points(tile.points).subspan(first, last + 1 - first));
-        }
+        tile.forEachContour(0, std::uint32_t(tile.runs.size()), [this](Points contour) { take(contour); });
         for (Edges& edges : along_)
             edges = withoutOpposites(std::move(edges));
         betweenColumns_ = between(along_[Right], along_[Left], &LatticePoint::x, side);

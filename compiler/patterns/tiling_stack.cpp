@@ -4,24 +4,16 @@
 #include <cmath>
 #include <utility>
 
-#include <glm/geometric.hpp>
-
 namespace vtm::compiler {
 
 using scene::Affine;
 using scene::compose;
 using scene::Point;
 
-/// The longer side of a tile.
-double TilingStack::stepsAlong(const scene::Pattern& pattern, const Affine& toSteps) {
-    const Point period = pattern.max - pattern.min;
-    return std::max(glm::length(toSteps[0]) * period.x, glm::length(toSteps[1]) * period.y);
-}
-
 std::optional<Affine> TilingStack::enter(const scene::Pattern& pattern, const TileRange& range,
                                          std::vector<TileSpan> rows, const Affine& toOutside) {
     const Affine toSteps = empty() ? toOutside : compose(levels_.back().toSteps, toOutside);
-    const double least = fineness_ * stepsAlong(pattern, toSteps);
+    const double least = fineness_ * longerSideOf(pattern, toSteps);
     Coord side = leastTileSide;
     while (side < least && side < mostTileSide)
         side *= 2;

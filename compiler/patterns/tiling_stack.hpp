@@ -31,7 +31,8 @@ public:
 
     /// Whether the picture's step says how exact outlines are.
     bool isFine(const scene::Pattern& pattern, const scene::Affine& toPicture) const {
-        return fineness_ * stepsAlong(pattern, scene::compose(lattice_.toSteps(), toPicture)) <= mostTileSide;
+        return fineness_ * longerSideOf(pattern, scene::compose(lattice_.toSteps(), toPicture)) <=
+               mostTileSide;
     }
 
     /// Goes on with the content of a pattern's tiles, the `rows` of a range, which `toOutside` leads to steps
@@ -52,7 +53,6 @@ private:
         double stretch = 1;     ///< at most
     };
 
-    static double stepsAlong(const scene::Pattern& pattern, const scene::Affine& toSteps);
     void appendInTile(Outlines& outlines, const OutlineOrigin& origin) const;
 
     const Lattice& lattice_;
