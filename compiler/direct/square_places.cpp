@@ -45,6 +45,37 @@ std::int16_t fixedHeight(float y) { return std::int16_t(fixedPoint * std::clamp(
 /// All bits or none.
 std::int16_t maskOf(bool is) { return is ? -1 : 0; }
 
+/// Half of a row of places. Of comparisons written one by one, compilers make single numbers again.
+using Eight = std::int16_t __attribute__((vector_size(16)));
+constexpr std::size_t halves = placesAlong * sizeof(std::int16_t) / sizeof(Eight);
+using Row = std::array<Eight, halves>;
+
+Eight all(std::int16_t value) { return Eight{} + value; }
+
+Row rowAt(const std::int16_t* from) {
+    Row row;
+    std::memcpy(row.data(), from, sizeof(row));
+    return row;
+}
+
+/// From the first one on, sums up to each and with it.
+Eight runningSums(Eight x) {
+    constexpr Eight none{};
+    x += __builtin_shufflevector(none, x, 0, 8, 9, 10, 11, 12, 13, 14);
+    x += __builtin_shufflevector(none, x, 0, 0, 8, 9, 10, 11, 12, 13);
+    x += __builtin_shufflevector(none, x, 0, 0, 0, 0, 8, 9, 10, 11);
+    return x;
+}
+
+/// Adds to some of a row's winding numbers: isIn(k) has all bits where it does, in that half.
+template <class IsIn>
+void addToRow(std::int16_t* windings, std::int32_t winding, const IsIn& isIn) {
+    Row row = rowAt(windings);
+    for (std::size_t k = 0; k < halves; ++k)
+        row[k] += isIn(k) & all(std::int16_t(winding));
+    std::memcpy(windings, row.data(), sizeof(row));
+}
+
 std::uint16_t fixedOf(float share) { return std::uint16_t(std::min(fixedShare * share, fixedShare - 1)); }
 
 float shareOfAll(std::int32_t sum) { return float(sum) / (float(fullLight) * placesInSquare); }
@@ -111,16 +142,20 @@ Numbers alongTurns(float from, float by, float least, float most) {
 
 PlaceRange::PlaceRange(float top, float bottom) : top_(fixedHeight(top)), bottom_(fixedHeight(bottom)) {}
 
-void PlaceRange::add(PlaceWindings& windings, std::int32_t winding) const {
-    const auto amount = std::int16_t(winding);
-    for (int r = 0; r < placesAlong; ++r) {
-        const auto top = std::int16_t(top_ - r * fixedRow), bottom = std::int16_t(bottom_ - r * fixedRow);
-        std::int16_t* row = &windings[std::size_t(r) * placesAlong];
-        for (std::size_t c = 0; c < placesAlong; ++c) {
-            const bool isIn = (fixedTurns[c] >= top) & (fixedTurns[c] < bottom);
-            row[c] = std::int16_t(row[c] + (maskOf(isIn) & amount));
-        }
+/// Calls visit(row, isIn) for each row of places that has some in the range; isIn(k) tells which.
+template <class Visit>
+void PlaceRange::forEachRow(const Visit& visit) const {
+    const Row turnsOf = rowAt(fixedTurns.data());
+    const int first = top_ / fixedRow, end = (bottom_ + fixedRow - 1) / fixedRow;
+    for (int r = first; r < end; ++r) {
+        const Eight top = all(std::int16_t(top_ - r * fixedRow)),
+                    bottom = all(std::int16_t(bottom_ - r * fixedRow));
+        visit(std::size_t(r), [&](std::size_t k) { return (turnsOf[k] >= top) & (turnsOf[k] < bottom); });
     }
+}
+
+void PlaceRange::add(PlaceWindings& windings, std::int32_t winding) const {
+    forEachRow([&](std::size_t r, const auto& isIn) { addToRow(&windings[r * placesAlong], winding, isIn); });
 }
 
 PlacedEdge::PlacedEdge(glm::vec2 a, float slope)
@@ -142,30 +177,21 @@ std::array<std::int16_t, placesAlong> PlacedEdge::columnsIn(int square) const {
 }
 
 void PlacedEdge::add(PlaceWindings& windings, int square, std::int32_t winding) const {
-    const auto columns = columnsIn(square);
-    const auto amount = std::int16_t(winding);
+    const Row columns = rowAt(columnsIn(square).data());
     for (std::size_t r = 0; r < placesAlong; ++r) {
-        const std::int16_t row = rows_[r];
-        std::int16_t* to = &windings[r * placesAlong];
-        for (std::size_t c = 0; c < placesAlong; ++c)
-            to[c] = std::int16_t(to[c] + (maskOf(columns[c] > row) & amount));
+        const Eight row = all(rows_[r]);
+        addToRow(&windings[r * placesAlong], winding, [&](std::size_t k) { return columns[k] > row; });
     }
 }
 
 void PlacedEdge::add(PlaceWindings& windings, int square, std::int32_t winding,
                      const PlaceRange& range) const {
-    const auto columns = columnsIn(square);
-    const auto amount = std::int16_t(winding);
-    for (std::size_t r = 0; r < placesAlong; ++r) {
-        const std::int16_t row = rows_[r];
-        const auto top = std::int16_t(range.top_ - int(r) * fixedRow),
-                   bottom = std::int16_t(range.bottom_ - int(r) * fixedRow);
-        std::int16_t* to = &windings[r * placesAlong];
-        for (std::size_t c = 0; c < placesAlong; ++c) {
-            const bool isIn = (columns[c] > row) & (fixedTurns[c] >= top) & (fixedTurns[c] < bottom);
-            to[c] = std::int16_t(to[c] + (maskOf(isIn) & amount));
-        }
-    }
+    const Row columns = rowAt(columnsIn(square).data());
+    range.forEachRow([&](std::size_t r, const auto& isIn) {
+        const Eight row = all(rows_[r]);
+        addToRow(&windings[r * placesAlong], winding,
+                 [&](std::size_t k) { return (columns[k] > row) & isIn(k); });
+    });
 }
 
 PlaceSteps::PlaceSteps(int squares)
@@ -220,23 +246,24 @@ void PlaceSteps::startFrom(int column, int row, std::int32_t winding) {
 }
 
 void PlaceSteps::windingsOf(int square, Column& before, PlaceWindings& windings) const {
-    Column in{}, from{};
+    Row in{}, from{};
     for (std::size_t r = 0; r < placesAlong; ++r) {
-        const std::int16_t* steps = &steps_[r * rowSize_ + std::size_t(square) * placesAlong];
+        const Row steps = rowAt(&steps_[r * rowSize_ + std::size_t(square) * placesAlong]);
         if (hasLevel_) {
-            const Column &inHere = inColumn_[std::size_t(square)][r],
-                         &fromHere = fromColumn_[std::size_t(square)][r];
-            for (std::size_t c = 0; c < placesAlong; ++c) {
-                in[c] = std::int16_t(in[c] + inHere[c]);
-                from[c] = std::int16_t(from[c] + fromHere[c]);
+            const Row inHere = rowAt(inColumn_[std::size_t(square)][r].data()),
+                      fromHere = rowAt(fromColumn_[std::size_t(square)][r].data());
+            for (std::size_t k = 0; k < halves; ++k) {
+                in[k] += inHere[k];
+                from[k] += fromHere[k];
             }
         }
-        std::int16_t winding = before[r];
-        for (std::size_t c = 0; c < placesAlong; ++c) {
-            winding = std::int16_t(winding + steps[c] + from[c]);
-            windings[r * placesAlong + c] = std::int16_t(winding + in[c]);
+        Row row;
+        for (std::size_t k = 0; k < halves; ++k) {
+            const Eight sums = runningSums(steps[k] + from[k]) + all(before[r]);
+            before[r] = sums[7];
+            row[k] = sums + in[k];
         }
-        before[r] = winding;
+        std::memcpy(&windings[r * placesAlong], row.data(), sizeof(row));
     }
 }
 

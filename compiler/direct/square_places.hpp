@@ -33,6 +33,9 @@ public:
 
 private:
     friend class PlacedEdge;
+    template <class Visit>
+    void forEachRow(const Visit& visit) const;
+
     std::int16_t top_, bottom_;
 };
 
