@@ -17,7 +17,7 @@ namespace vtm::compiler {
 /// A chain that the row cuts, and the edge of it that was looked at last. Many are gone through again and
 /// again, so there is no more in it.
 struct CutChain {
-    glm::vec2 a;                   ///< the edge's upper end, or the chain's
+    glm::vec2 a;                   ///< the edge's upper end, or where the chain goes down first
     float slope = 0;               ///< dx / dy
     float edgeBottom = -INFINITY;  ///< where it ends; none at first
     std::uint32_t at;              ///< the upper end's vertex
@@ -83,8 +83,11 @@ void ChainTaker::take(float top, float bottom, std::vector<CutChain>& cuts, cons
     std::size_t begun = 0;
     for (; begun < toCome_.size() && chains_[toCome_[begun]].top < bottom; ++begun) {
         const DownChain& chain = chains_[toCome_[begun]];
+        std::uint32_t down = chain.first;
+        while (down + 2 < chain.end && vertices[down + 1].y == vertices[down].y)
+            ++down;
         if (chain.bottom > top && isTaken(chain))
-            begun_.push_back({.a = vertices[chain.first],
+            begun_.push_back({.a = vertices[down],
                               .at = chain.first,
                               .last = chain.end - 1,
                               .layer = chain.layer,

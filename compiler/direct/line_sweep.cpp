@@ -345,6 +345,10 @@ void LineSweep::lookAndSort(const Step& step) {
 }
 
 void LineSweep::draw(const Step& step) {
+    if (addInOrder(step)) {
+        drawn_ += step.height;
+        return;
+    }
     lookAndSort(step);
     winding_ = 0;
     endedColumns_.clear();
@@ -448,7 +452,7 @@ void LineSweep::drawInSteps(std::span<const Seen> chains, const Step& step, Show
 LineSweep::Shown LineSweep::cross(std::span<const Seen> chains, const Step& step, const Shown& left,
                                   float begin, float end) {
     if (isOneColor_) {
-        addOutline(chains, step.height, shares_);
+        addOutline(chains, step.height);
         return {};
     }
     if (isInPixels_) {
@@ -598,32 +602,88 @@ void LineSweep::lookHere(Shown& shown) {
 }
 
 /// Of one layer, whose inside is a colour: what changes from column to column.
-void LineSweep::addOutline(std::span<const Seen> chains, float height, std::vector<float>& shares) {
-    const std::int32_t mask = isEvenOdd_ ? 1 : -1;
-    Change last;
-    bool isInside = (winding_ & mask) != 0;
-    const auto addLast = [&] {
-        const Edge edge = last.edge();
-        addAlong(shares, edge.from, edge.to, isInside ? height : -height);
-    };
-    for (const Seen& seen : chains) {
-        if (!seen.isAtMiddle)
-            continue;
+class LineSweep::OutlineSum {
+public:
+    OutlineSum(LineSweep& of, float height)
+        : shares_(of.shares_),
+          winding_(of.winding_),
+          mask_(of.isEvenOdd_ ? 1 : -1),
+          height_(height),
+          isInside_((winding_ & mask_) != 0) {}
+
+    /// Of all chains at the middle, from left to right.
+    void cross(const Seen& seen) {
         winding_ += seen.winding;
-        if (((winding_ & mask) != 0) == isInside)
-            continue;
-        Change next{&seen, seen.isBent()};
-        if (last.seen) {
-            const bool crosses = last.crosses(seen);
-            next.isUpright = next.isUpright || crosses;
-            last.isUpright = last.isUpright || crosses;
+        if (((winding_ & mask_) != 0) == isInside_)
+            return;
+        bool isUpright = seen.isBent();
+        if (hasLast_) {
+            const bool crosses = last_.from > seen.from || last_.to > seen.to;
+            isUpright = isUpright || crosses;
+            last_.isUpright = last_.isUpright || crosses;
             addLast();
         }
-        isInside = !isInside;
-        last = next;
+        hasLast_ = true;
+        isInside_ = !isInside_;
+        last_ = {seen.x, seen.from, seen.to, isUpright};
     }
-    if (last.seen)
-        addLast();
+    void finish() {
+        if (hasLast_)
+            addLast();
+    }
+
+private:
+    struct Last {
+        float x, from, to;
+        bool isUpright;
+    };
+    void addLast() {
+        addAlong(shares_, last_.isUpright ? last_.x : last_.from, last_.isUpright ? last_.x : last_.to,
+                 isInside_ ? height_ : -height_);
+    }
+
+    std::vector<float>& shares_;
+    std::int32_t& winding_;
+    const std::int32_t mask_;
+    const float height_;
+    bool isInside_, hasLast_ = false;
+    Last last_{};
+};
+
+void LineSweep::addOutline(std::span<const Seen> chains, float height) {
+    OutlineSum sum(*this, height);
+    for (const Seen& seen : chains)
+        if (seen.isAtMiddle)
+            sum.cross(seen);
+    sum.finish();
+}
+
+/// All chains, where they are in their order. False if they are not, or smaller steps are wanted; then
+/// nothing is done.
+bool LineSweep::addInOrder(const Step& step) {
+    if (!isOneColor_)
+        return false;
+    limits::check();
+    sharesBefore_ = shares_;
+    winding_ = 0;
+    hasSpecial_ = false;
+    OutlineSum sum(*this, step.height);
+    Seen seen;
+    float left = -INFINITY;
+    for (std::size_t i = 0; i < cuts_.size(); ++i) {
+        fetchAhead(cuts_, i, step.bottom, vertices_);
+        look(i, step, seen);
+        if ((seen.isAtMiddle && seen.x < left) || (hasSpecial_ && smallSteps_ > 0)) {
+            shares_.swap(sharesBefore_);
+            return false;
+        }
+        if (seen.isAtMiddle) {
+            left = seen.x;
+            sum.cross(seen);
+        }
+    }
+    sum.finish();
+    return true;
 }
 
 void LineSweep::add(const PaintChange& change, const Step& step) {

@@ -180,7 +180,9 @@ private:
     void findLayersOfPixels(float top, float bottom);
     void lookHere(Shown& shown);
     void measure(float top, float bottom);
-    void addOutline(std::span<const Seen> chains, float height, std::vector<float>& shares);
+    class OutlineSum;
+    void addOutline(std::span<const Seen> chains, float height);
+    bool addInOrder(const Step& step);
     void add(const PaintChange& change, const Step& step);
     void addInPixels(const Edge& left, const Edge& right, const Step& step);
     template <class Amount>
@@ -217,6 +219,7 @@ private:
     std::vector<float> leftmost_;  ///< in sorted_, from i on
     std::vector<glm::vec4> sums_;  ///< by column: what changes there, times height
     std::vector<float> shares_;    ///< the same of one layer's inside, or of a region
+    std::vector<float> sharesBefore_;
     // Of pictures with programs.
     bool remembers_ = false;   ///< their paints
     bool isInPixels_ = false;  ///< or paints are composited in each pixel
