@@ -5,6 +5,10 @@
 #include <cstring>
 #include <numbers>
 
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
 namespace vtm::compiler {
 namespace {
 
@@ -80,39 +84,60 @@ std::uint16_t fixedOf(float share) { return std::uint16_t(std::min(fixedShare * 
 
 float shareOfAll(std::int32_t sum) { return float(sum) / (float(fullLight) * placesInSquare); }
 
-TakenLight sumsOf(const std::array<std::int16_t, placesInSquare>& taken,
-                  const std::array<std::int16_t, placesInSquare>& left) {
-    std::int32_t sum = 0;
-    for (const std::int16_t t : taken)
-        sum += t;
-    std::int16_t most = 0;
-    for (const std::int16_t l : left)
-        most = std::int16_t(most | l);
-    return {shareOfAll(sum), std::uint16_t(most)};
+/// Parts of the light at half a row of places.
+using EightLights = std::uint16_t __attribute__((vector_size(16)));
+using FourSums = std::uint32_t __attribute__((vector_size(16)));
+
+/// Parts of `of`; shares are as fixedOf() gives them.
+EightLights partsOf(EightLights of, EightLights shares) {
+#if defined(__SSE2__)  // compilers multiply in 32 bits
+    return EightLights(_mm_mulhi_epu16(__m128i(of), __m128i(shares)));
+#else
+    EightLights parts;
+    for (std::size_t i = 0; i < sizeof(parts) / sizeof(parts[0]); ++i)
+        parts[i] = std::uint16_t(std::uint32_t(of[i]) * shares[i] >> 16);
+    return parts;
+#endif
 }
 
-/// Takes part(light) of each light where inside(winding) gives all bits, and not none. Loops of one type each
-/// are compiled to eight places at a time.
-template <class Inside, class Part>
-TakenLight take(PlaceLights& __restrict lights, const PlaceWindings& __restrict windings,
-                const Inside& inside, const Part& part) {
-    std::array<std::int16_t, placesInSquare> taken, left;
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-        const std::int16_t is = inside(windings[i]);
-        taken[i] = std::int16_t(part(lights[i]) & is);
-        lights[i] = std::uint16_t(lights[i] - std::uint16_t(taken[i]));
-        left[i] = std::int16_t(lights[i] & is);
+/// Takes part(lights) of those where isInside(row, half) has all bits, and not none.
+template <class IsInside, class Part>
+TakenLight take(PlaceLights& lights, const IsInside& isInside, const Part& part) {
+    static_assert(halves == 2 &&
+                  2 * fullLight <= 0xFFFF);  // what is taken at two places is summed in 16 bits
+    FourSums sums{};
+    EightLights most{};
+    for (std::size_t r = 0; r < placesAlong; ++r) {
+        EightLights ofTwo{};
+        for (std::size_t k = 0; k < halves; ++k) {
+            std::uint16_t* const at = &lights[r * placesAlong + k * placesAlong / halves];
+            EightLights here;
+            std::memcpy(&here, at, sizeof(here));
+            const auto inside = EightLights(isInside(r, k));
+            const EightLights taken = part(here) & inside;
+            here -= taken;
+            std::memcpy(at, &here, sizeof(here));
+            ofTwo += taken;
+            most |= here & inside;
+        }
+        const auto pairs = FourSums(ofTwo);
+        sums += (pairs & 0xFFFF) + (pairs >> 16);
     }
-    return sumsOf(taken, left);
+    std::uint32_t sum = 0;
+    for (std::size_t i = 0; i < sizeof(sums) / sizeof(sums[0]); ++i)
+        sum += sums[i];
+    std::uint16_t mostOfAll = 0;
+    for (std::size_t i = 0; i < sizeof(most) / sizeof(most[0]); ++i)
+        mostOfAll = std::uint16_t(mostOfAll | most[i]);
+    return {shareOfAll(std::int32_t(sum)), mostOfAll};
 }
 
-template <class Inside>
-TakenLight take(PlaceLights& lights, const PlaceWindings& windings, const Inside& inside, float alpha) {
+template <class IsInside>
+TakenLight take(PlaceLights& lights, const IsInside& isInside, float alpha) {
     if (alpha >= 1)
-        return take(lights, windings, inside, [](std::uint16_t light) { return light; });
-    const std::uint16_t share = fixedOf(alpha);
-    return take(lights, windings, inside,
-                [=](std::uint16_t light) { return std::uint16_t(std::uint32_t(light) * share >> 16); });
+        return take(lights, isInside, [](EightLights here) { return here; });
+    const EightLights shares = EightLights{} + fixedOf(alpha);
+    return take(lights, isInside, [=](EightLights here) { return partsOf(here, shares); });
 }
 
 using Numbers = std::array<std::int32_t, placesAlong>;
@@ -268,34 +293,24 @@ void PlaceSteps::windingsOf(int square, Column& before, PlaceWindings& windings)
 }
 
 TakenLight takeLight(PlaceLights& lights, const PlaceWindings& windings, bool isEvenOdd, float alpha) {
+    const auto windingsAt = [&](std::size_t r, std::size_t k) {
+        return rowAt(&windings[r * placesAlong])[k];
+    };
     if (isEvenOdd)
         return take(
-            lights, windings, [](std::int16_t w) { return maskOf((w & 1) != 0); }, alpha);
+            lights, [&](std::size_t r, std::size_t k) { return (windingsAt(r, k) & 1) != 0; }, alpha);
     return take(
-        lights, windings, [](std::int16_t w) { return maskOf(w != 0); }, alpha);
+        lights, [&](std::size_t r, std::size_t k) { return windingsAt(r, k) != 0; }, alpha);
 }
 
-TakenLight takeLightBeside(PlaceLights& __restrict lights, const PlacedEdge& edge, int square, bool isLeft,
+TakenLight takeLightBeside(PlaceLights& lights, const PlacedEdge& edge, int square, bool isLeft,
                            float alpha) {
     // All of them where the edge is not, and then none.
-    const std::int16_t side = maskOf(isLeft);
-    const auto columns = edge.columnsIn(square);
-    const bool isOpaque = alpha >= 1;
-    const std::uint16_t share = fixedOf(alpha);
-    std::array<std::int16_t, placesInSquare> taken, left;
-    for (std::size_t r = 0; r < placesAlong; ++r) {
-        const std::int16_t row = edge.rows_[r];
-        std::uint16_t* light = &lights[r * placesAlong];
-        std::int16_t *const takenHere = &taken[r * placesAlong], *const leftHere = &left[r * placesAlong];
-        for (std::size_t c = 0; c < placesAlong; ++c) {
-            const auto inside = std::int16_t(maskOf(columns[c] > row) ^ side);
-            const auto part = isOpaque ? light[c] : std::uint16_t(std::uint32_t(light[c]) * share >> 16);
-            takenHere[c] = std::int16_t(part & inside);
-            light[c] = std::uint16_t(light[c] - std::uint16_t(takenHere[c]));
-            leftHere[c] = std::int16_t(light[c] & inside);
-        }
-    }
-    return sumsOf(taken, left);
+    const Eight side = all(maskOf(isLeft));
+    const Row columns = rowAt(edge.columnsIn(square).data());
+    return take(
+        lights, [&](std::size_t r, std::size_t k) { return (columns[k] > all(edge.rows_[r])) ^ side; },
+        alpha);
 }
 
 float mixLights(PlaceLights& __restrict lights, float share, const PlaceLights& __restrict others,
