@@ -216,9 +216,9 @@ private:
     std::vector<Seen> part_;  ///< some chains, in thinner steps
     std::vector<Placed> partOrder_;
     std::vector<Seen> partSorted_;
-    std::vector<float> leftmost_;  ///< in sorted_, from i on
-    std::vector<glm::vec4> sums_;  ///< by column: what changes there, times height
-    std::vector<float> shares_;    ///< the same of one layer's inside, or of a region
+    std::vector<float> leftmost_;      ///< in sorted_, from i on
+    std::vector<glm::vec4> sums_;      ///< by column: what changes there, times height
+    std::vector<float> shares_;        ///< the same of one layer's inside, or of a region
     std::vector<float> sharesBefore_;  ///< a step that may be given up
     // Of pictures with programs.
     bool remembers_ = false;   ///< their paints
