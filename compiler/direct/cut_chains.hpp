@@ -83,15 +83,16 @@ void ChainTaker::take(float top, float bottom, std::vector<CutChain>& cuts, cons
     std::size_t begun = 0;
     for (; begun < toCome_.size() && chains_[toCome_[begun]].top < bottom; ++begun) {
         const DownChain& chain = chains_[toCome_[begun]];
+        if (chain.bottom <= top || !isTaken(chain))
+            continue;
         std::uint32_t down = chain.first;
         while (down + 2 < chain.end && vertices[down + 1].y == vertices[down].y)
             ++down;
-        if (chain.bottom > top && isTaken(chain))
-            begun_.push_back({.a = vertices[down],
-                              .at = chain.first,
-                              .last = chain.end - 1,
-                              .layer = chain.layer,
-                              .winding = chain.winding});
+        begun_.push_back({.a = vertices[down],
+                          .at = chain.first,
+                          .last = chain.end - 1,
+                          .layer = chain.layer,
+                          .winding = chain.winding});
     }
     toCome_ = toCome_.subspan(begun);
     std::ranges::stable_sort(begun_, isBefore);

@@ -345,10 +345,12 @@ void LineSweep::lookAndSort(const Step& step) {
 }
 
 void LineSweep::draw(const Step& step) {
-    if (addInOrder(step)) {
-        drawn_ += step.height;
-        return;
-    }
+    if (!addInOrder(step))
+        drawSorted(step);
+    drawn_ += step.height;
+}
+
+void LineSweep::drawSorted(const Step& step) {
     lookAndSort(step);
     winding_ = 0;
     endedColumns_.clear();
@@ -366,7 +368,6 @@ void LineSweep::draw(const Step& step) {
             sums_[i] += inStep_[i];
         leaveOutEndedColumns(inStep_);
     }
-    drawn_ += step.height;
 }
 
 void LineSweep::drawChains(const Step& step) {
@@ -492,9 +493,7 @@ LineSweep::Shown LineSweep::cross(std::span<const Seen> chains, const Step& step
         next->right = here->region.paint;
         next->color = here->color - before->color;
         if (last->seen) {
-            const bool crosses = last->crosses(seen);
-            next->isUpright = next->isUpright || crosses;
-            last->isUpright = last->isUpright || crosses;
+            last->meet(*next);
             add(*last, step);
         }
         std::swap(next, last);
@@ -530,11 +529,8 @@ void LineSweep::crossInPixels(std::span<const Seen> chains, const Step& step, fl
                 continue;
             hidden = state_.hiddenByFew();
             Change next{&seen, seen.isBent()};
-            if (!changes_.empty()) {
-                const bool crosses = changes_.back().crosses(seen);
-                next.isUpright = next.isUpright || crosses;
-                changes_.back().isUpright = changes_.back().isUpright || crosses;
-            }
+            if (!changes_.empty())
+                changes_.back().meet(next);
             changes_.push_back(next);
         }
     for (const Seen& seen : chains)
@@ -616,38 +612,33 @@ public:
         winding_ += seen.winding;
         if (((winding_ & mask_) != 0) == isInside_)
             return;
-        bool isUpright = seen.isBent();
-        if (hasLast_) {
-            const bool crosses = last_.from > seen.from || last_.to > seen.to;
-            isUpright = isUpright || crosses;
-            last_.isUpright = last_.isUpright || crosses;
+        Change next{&seen, seen.isBent()};
+        if (last_.seen) {
+            last_.meet(next);
             addLast();
         }
-        hasLast_ = true;
         isInside_ = !isInside_;
-        last_ = {seen.x, seen.from, seen.to, isUpright};
+        lastSeen_ = seen;
+        last_ = {&lastSeen_, next.isUpright};
     }
     void finish() {
-        if (hasLast_)
+        if (last_.seen)
             addLast();
     }
 
 private:
-    struct Last {
-        float x, from, to;
-        bool isUpright;
-    };
     void addLast() {
-        addAlong(shares_, last_.isUpright ? last_.x : last_.from, last_.isUpright ? last_.x : last_.to,
-                 isInside_ ? height_ : -height_);
+        const Edge edge = last_.edge();
+        addAlong(shares_, edge.from, edge.to, isInside_ ? height_ : -height_);
     }
 
     std::vector<float>& shares_;
     std::int32_t& winding_;
     const std::int32_t mask_;
     const float height_;
-    bool isInside_, hasLast_ = false;
-    Last last_{};
+    bool isInside_;
+    Seen lastSeen_{};
+    Change last_;
 };
 
 void LineSweep::addOutline(std::span<const Seen> chains, float height) {

@@ -113,7 +113,12 @@ private:
         const Seen* seen = nullptr;
         bool isUpright = false;  ///< taken to be: it bends, or another one crosses it in the step
 
-        bool crosses(const Seen& next) const { return seen->from > next.from || seen->to > next.to; }
+        /// The next one on its right. Where they cross, both are upright.
+        void meet(Change& next) {
+            const bool crosses = seen->from > next.seen->from || seen->to > next.seen->to;
+            isUpright = isUpright || crosses;
+            next.isUpright = next.isUpright || crosses;
+        }
         /// Where edges cross or bend, what each does is right in the middle of the step only.
         Edge edge() const { return isUpright ? Edge{seen->x, seen->x} : Edge{seen->from, seen->to}; }
     };
@@ -160,6 +165,7 @@ private:
     void arrangeCuts();
     void lookAndSort(const Step& step);
     void draw(const Step& step);
+    void drawSorted(const Step& step);
     void drawByParts(const Step& step);
     template <class Numbers>
     void takePart(const Numbers& numbers);

@@ -414,12 +414,15 @@ SampledRows::Apart SampledRows::apartFrom(const RowLine& line, const Touch& touc
 /// Whether all of a square that is on one side of a chain is known to be dark. Where the chain is beside the
 /// square, all of it or nothing is on that side.
 bool SampledRows::isDarkBeside(const Touch& touch, std::int32_t square, bool isLeft) const {
-    const RowLine line = isLeft ? lights_.darkLeft(square) : lights_.darkRight(square);
-    if (isLeft ? std::max(line.enter, line.leave) <= float(square)
-               : std::min(line.enter, line.leave) >= float(square + 1))
-        return false;
-    return isLeft ? apartFrom(line, touch, square, Side::Left).most <= 0
-                  : apartFrom(line, touch, square, Side::Right).least >= 0;
+    // Mostly the line lies beside the square: nothing of it is known to be dark.
+    if (isLeft) {
+        const RowLine line = lights_.darkLeft(square);
+        return std::max(line.enter, line.leave) > float(square) &&
+               apartFrom(line, touch, square, Side::Left).most <= 0;
+    }
+    const RowLine line = lights_.darkRight(square);
+    return std::min(line.enter, line.leave) < float(square + 1) &&
+           apartFrom(line, touch, square, Side::Right).least >= 0;
 }
 
 /// All is dark on one side of the chain.

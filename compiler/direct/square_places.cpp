@@ -46,9 +46,6 @@ constexpr auto fixedRow = std::int16_t(fixedPoint / placesAlong);
 
 std::int16_t fixedHeight(float y) { return std::int16_t(fixedPoint * std::clamp(y, 0.0f, 1.0f)); }
 
-/// All bits or none.
-std::int16_t maskOf(bool is) { return is ? -1 : 0; }
-
 /// Half of a row of places. Of comparisons written one by one, compilers make single numbers again.
 using Eight = std::int16_t __attribute__((vector_size(16)));
 constexpr std::size_t halves = placesAlong * sizeof(std::int16_t) / sizeof(Eight);
@@ -103,8 +100,8 @@ EightLights partsOf(EightLights of, EightLights shares) {
 /// Takes part(lights) of those where isInside(row, half) has all bits, and not none.
 template <class IsInside, class Part>
 TakenLight take(PlaceLights& lights, const IsInside& isInside, const Part& part) {
-    static_assert(halves == 2 &&
-                  2 * fullLight <= 0xFFFF);  // what is taken at two places is summed in 16 bits
+    // What is taken at two places is summed in 16 bits.
+    static_assert(halves == 2 && 2 * fullLight <= 0xFFFF);
     FourSums sums{};
     EightLights most{};
     for (std::size_t r = 0; r < placesAlong; ++r) {
@@ -306,7 +303,7 @@ TakenLight takeLight(PlaceLights& lights, const PlaceWindings& windings, bool is
 TakenLight takeLightBeside(PlaceLights& lights, const PlacedEdge& edge, int square, bool isLeft,
                            float alpha) {
     // All of them where the edge is not, and then none.
-    const Eight side = all(maskOf(isLeft));
+    const Eight side = all(isLeft ? -1 : 0);
     const Row columns = rowAt(edge.columnsIn(square).data());
     return take(
         lights, [&](std::size_t r, std::size_t k) { return (columns[k] > all(edge.rows_[r])) ^ side; },
