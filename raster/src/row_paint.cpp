@@ -52,28 +52,6 @@ RowGradient::Offsets RowGradient::Segment::held(Offsets offsets) const {
     return offsets.first(held);
 }
 
-void RowGradient::Segment::fill(const Steps& steps, std::span<Float4> colors) const {
-    const float x = steps.first - start, change = steps.change;
-    if (shape == Shape::Curved) {
-        for (std::size_t i = 0; i < colors.size(); ++i) {
-            const float t = x + float(int(i)) * change;
-            colors[i] = color + t * (slope + t * bend);
-        }
-        return;
-    }
-    // Four at a time, since each sum waits for the one before it.
-    const Float4 step = change * slope, first = color + x * slope;
-    std::array<Float4, 4> next{first, first + step, first + 2 * step, first + 3 * step};
-    std::size_t i = 0;
-    for (; i + 4 <= colors.size(); i += 4)
-        for (std::size_t k = 0; k < 4; ++k) {
-            colors[i + k] = next[k];
-            next[k] += 4 * step;
-        }
-    for (std::size_t k = 0; i < colors.size(); ++i, ++k)
-        colors[i] = next[k];
-}
-
 void RowGradient::Segment::fill(Offsets offsets, std::span<Float4> colors) const {
     if (shape == Shape::Curved)
         for (std::size_t i = 0; i < colors.size(); ++i)
@@ -295,6 +273,7 @@ void RowGradient::limitTip(float change) {
 
 void RowPaint::prepare(const Paints& paints, std::uint32_t paint, const PixelMiddles& pixels) {
     size_ = 0;
+    isLinear_ = true;
     const std::span<const Texel> data = paints.asset().data;
     const Paint& program = paints.asset().paints[paint];
     RowGradient::Solids solids;
@@ -318,6 +297,7 @@ void RowPaint::prepare(const Paints& paints, std::uint32_t paint, const PixelMid
             if (!isFirst)
                 solids = {};
             gradient = in;
+            isLinear_ &= in.op == Op::Linear;
         } else {
             size_ = 0;
             return;

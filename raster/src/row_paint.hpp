@@ -20,6 +20,7 @@
 #include "raster/src/float4.hpp"
 #include "raster/src/gradient.hpp"
 #include "raster/src/paint.hpp"
+#include "raster/src/row_colors.hpp"
 
 namespace vtm::asset {
 
@@ -59,45 +60,72 @@ public:
         color = segment.shape == Shape::Turning ? segment.turned(u, widthAt(pixel, u)) : segment.at(u);
         return true;
     }
+    bool isRadial() const { return isRadial_; }
+    /// Of pixels of a row, those from the first on of which a linear gradient knows the same.
+    struct Stretch {
+        std::size_t count;
+        bool isEven;       ///< in which `colors` are the means
+        bool isKnown;      ///< or at() knows them
+        RowColors colors;  ///< from the first pixel on
+    };
+    Stretch stretchAt(Pixel first, std::size_t maximum) {
+        const float u = linear_.at(first), change = float(linear_.right);
+        const Segment& segment = find(u);
+        const bool isOne = linear_.isEven(first, maximum);
+        const std::size_t count = isOne ? maximum : segment.held(u, change, maximum);
+        const auto one = [&](Float4 color) {
+            return Stretch{count, true, true, {color, Float4{}, Float4{}, 0}};
+        };
+        if (segment.shape == Shape::Mixed)
+            return {count, false, false, {}};
+        if (segment.shape == Shape::Turning)
+            return isOne ? one(segment.turned(u, linear_.width)) : Stretch{count, false, true, {}};
+        if (segment.shape == Shape::Constant || isOne)
+            return one(segment.at(u));
+        const float x = u - segment.start;
+        if (segment.shape == Shape::Straight)
+            return {count, true, true, {segment.at(u), change * segment.slope, Float4{}, 1}};
+        return {count,
+                true,
+                true,
+                {segment.at(u), change * (segment.slope + 2 * x * segment.bend),
+                 change * change * segment.bend, 2}};
+    }
     /// Visits no more than longestRow pixels of a row, from the left: constant(first, end, colour),
     /// some(first, colours), or others(first, end) where the mean over a pixel is not known here. Pixels are
     /// counted from 0.
     template <class Constant, class Some, class Others>
     void visit(Pixel first, std::size_t count, Constant&& constant, Some&& some, Others&& others) {
-        std::array<Float4, longestRow> memory;
-        const auto visit = [&](std::size_t from, std::size_t size, const Segment& segment,
-                               const auto& offsets) {
-            if (segment.shape == Shape::Constant)
-                return constant(from, from + size, segment.color);
-            if (segment.shape == Shape::Mixed)
-                return others(from, from + size);
-            const std::span<Float4> colors = std::span(memory).first(size);
-            if (segment.shape == Shape::Turning)
-                for (std::size_t i = 0; i < size; ++i)
-                    colors[i] =
-                        segment.turned(offsets[i], widthAt({first.x + int(from + i), first.row}, offsets[i]));
-            else
-                segment.fill(offsets, colors);
-            some(from, std::span<const Float4>(colors));
-        };
         if (isRadial_)
-            visitRadial(first, count, visit, others);
-        else if (Float4 color; !linear_.isEven(first, count))
-            visitLinear(first, count, visit);
-        else if (at(first, color))
-            constant(0, count, color);
+            visitRadial(first, count, constant, some, others);
         else
-            others(0, count);
+            visitLinear(first, count, constant, some, others);
+    }
+    /// The same of a radial gradient.
+    template <class Constant, class Some, class Others>
+    void visitRadial(Pixel first, std::size_t count, Constant&& constant, Some&& some, Others&& others) {
+        std::array<Float4, longestRow> memory;
+        visitSegments(
+            first, count,
+            [&](std::size_t from, std::size_t size, const Segment& segment, const Offsets& offsets) {
+                if (segment.shape == Shape::Constant)
+                    return constant(from, from + size, segment.color);
+                if (segment.shape == Shape::Mixed)
+                    return others(from, from + size);
+                const std::span<Float4> colors = std::span(memory).first(size);
+                if (segment.shape == Shape::Turning)
+                    for (std::size_t i = 0; i < size; ++i)
+                        colors[i] = segment.turned(
+                            offsets[i], radialWidth({first.x + int(from + i), first.row}, offsets[i]));
+                else
+                    segment.fill(offsets, colors);
+                some(from, std::span<const Float4>(colors));
+            },
+            others);
     }
 
 private:
     enum class Shape : std::uint8_t { Constant, Straight, Curved, Turning, Mixed };
-    /// Along a row.
-    struct Steps {
-        float first, change;
-
-        float operator[](std::size_t i) const { return first + float(int(i)) * change; }
-    };
     using Offsets = std::span<const float>;
 
     /// Of the ramp, from `low` to below `high`: with x = u - start, color + x slope + x² bend. Turning: and
@@ -125,25 +153,38 @@ private:
         /// Those, from the first on, that it holds; the first in any case.
         Offsets held(Offsets offsets) const;
         /// The same of a row.
-        std::size_t held(const Steps& steps, std::size_t maximum) const {
-            const float held = ((steps.change > 0 ? high : low) - steps.first) / steps.change;
+        std::size_t held(float first, float change, std::size_t maximum) const {
+            const float held = ((change > 0 ? high : low) - first) / change;
             return held < float(maximum) ? std::min(std::size_t(std::max(held, 0.0f)) + 1, maximum) : maximum;
         }
-        void fill(const Steps& steps, std::span<Float4> colors) const;
         void fill(Offsets offsets, std::span<Float4> colors) const;
     };
-    template <class Visit>
-    void visitLinear(Pixel first, std::size_t count, Visit&& visit) {
+    template <class Constant, class Some, class Others>
+    void visitLinear(Pixel first, std::size_t count, Constant&& constant, Some&& some, Others&& others) {
+        std::array<Float4, longestRow> memory;
         for (std::size_t i = 0; i < count;) {
-            const Steps steps{linear_.at({first.x + int(i), first.row}), float(linear_.right)};
-            const Segment& segment = find(steps.first);
-            const std::size_t held = segment.held(steps, count - i);
-            visit(i, held, segment, steps);
-            i += held;
+            const Pixel pixel{first.x + int(i), first.row};
+            const Stretch stretch = stretchAt(pixel, count - i);
+            const std::span<Float4> colors = std::span(memory).first(stretch.count);
+            const std::size_t end = i + stretch.count;
+            if (stretch.isEven && stretch.colors.degree == 0) {
+                constant(i, end, stretch.colors.color);
+            } else if (stretch.isEven) {
+                for (std::size_t k = 0; k < colors.size(); ++k)
+                    colors[k] = stretch.colors.at(float(int(k)));
+                some(i, std::span<const Float4>(colors));
+            } else if (stretch.isKnown) {
+                for (std::size_t k = 0; k < colors.size(); ++k)
+                    at({pixel.x + int(k), pixel.row}, colors[k]);
+                some(i, std::span<const Float4>(colors));
+            } else {
+                others(i, end);
+            }
+            i = end;
         }
     }
     template <class Visit, class Others>
-    void visitRadial(Pixel first, std::size_t count, Visit&& visit, Others&& others) {
+    void visitSegments(Pixel first, std::size_t count, Visit&& visit, Others&& others) {
         std::array<float, longestRow> memory;
         const std::span<float> offsets = std::span(memory).first(count);
         const PixelRange near = radialOffsets(first, offsets);
@@ -166,7 +207,8 @@ private:
     /// Over how much u is spread to both sides in a pixel, in whose middle it is `u`.
     float widthAt(Pixel pixel, float u) const { return isRadial_ ? radialWidth(pixel, u) : linear_.width; }
     float radialWidth(Pixel pixel, float u) const;
-    const Segment& find(float u) {
+    const Segment& find(float u) { return segments_[last_].holds(u) ? segments_[last_] : findOther(u); }
+    [[gnu::noinline]] const Segment& findOther(float u) {
         while (u < segments_[last_].low)
             --last_;
         while (u >= segments_[last_].high && last_ + 1 < segments_.size())
@@ -263,10 +305,56 @@ public:
         }
         return true;
     }
-    /// Visits pixels of a row from the left as RowGradient::visit() does; all are for others if it is not
-    /// ready.
-    template <class Constant, class Some, class Others>
-    void visit(int row, int first, int end, Constant&& constant, Some&& some, Others&& others) {
+    /// Visits pixels of a row from the left: even(first, end, colours), some(first, colours) of no more than
+    /// longestRow, or others(first, end) where the mean over a pixel is not known here.
+    template <class Even, class Some, class Others>
+    void visit(int row, int first, int end, Even&& even, Some&& some, Others&& others) {
+        if (size_ == 0)
+            return others(first, end);
+        if (!isLinear_)
+            return visitSome(row, first, end, even, some, others);
+        while (first < end) {
+            const Stretch stretch = stretchAt({first, row}, std::size_t(end - first));
+            const int next = first + int(stretch.count);
+            if (stretch.isEven)
+                even(first, next, stretch.colors);
+            else if (stretch.isKnown)
+                visitSome(row, first, next, even, some, others);
+            else
+                others(first, next);
+            first = next;
+        }
+    }
+
+private:
+    using Stretch = RowGradient::Stretch;
+
+    /// Of layers that are all linear.
+    Stretch stretchAt(Pixel first, std::size_t maximum) {
+        Stretch all = layers_[0].stretchAt(first, maximum);
+        for (std::size_t k = 1; k < size_; ++k) {
+            const Stretch above = layers_[k].stretchAt(first, all.count);
+            all.count = above.count;
+            all.isKnown &= above.isKnown;
+            all.isEven = all.isEven && above.isEven && layOver(above.colors, all.colors);
+        }
+        return all;
+    }
+    /// Lays colours over others; false if that is no polynomial of degree 2.
+    static bool layOver(const RowColors& above, RowColors& colors) {
+        const auto alpha = [](Float4 v) { return Float4{v[3], v[3], v[3], v[3]}; };
+        const Float4 rest = 1 - alpha(above.color), slope = alpha(above.slope), bend = alpha(above.bend);
+        const int degree = above.bend[3] != 0 ? 2 : above.slope[3] != 0 ? 1 : 0;
+        if (degree + colors.degree > 2)
+            return false;
+        colors = {above.color + rest * colors.color, above.slope + rest * colors.slope - slope * colors.color,
+                  above.bend + rest * colors.bend - slope * colors.slope - bend * colors.color,
+                  std::max(above.degree, degree + colors.degree)};
+        return true;
+    }
+
+    template <class Even, class Some, class Others>
+    void visitSome(int row, int first, int end, Even&& even, Some&& some, Others&& others) {
         for (; first < end; first += int(longestRow)) {
             const auto count = std::min(longestRow, std::size_t(end - first));
             const auto at = [&](std::size_t i) { return first + int(i); };
@@ -274,21 +362,17 @@ public:
                 some(at(from), colors);
             };
             const auto othersAt = [&](std::size_t from, std::size_t to) { others(at(from), at(to)); };
-            if (size_ == 1)
-                layers_[0].visit(
+            if (size_ == 1 && layers_[0].isRadial())
+                layers_[0].visitRadial(
                     {first, row}, count,
                     [&](std::size_t from, std::size_t to, Float4 color) {
-                        constant(at(from), at(to), color);
+                        even(at(from), at(to), RowColors{color, Float4{}, Float4{}, 0});
                     },
                     someAt, othersAt);
-            else if (size_ == 0)
-                othersAt(0, count);
             else
                 visitStack({first, row}, count, someAt, othersAt);
         }
     }
-
-private:
     template <class Some, class Others>
     void visitStack(Pixel pixel, std::size_t count, Some&& some, Others&& others) {
         std::array<Float4, longestRow> colors;
@@ -311,6 +395,7 @@ private:
 
     std::vector<RowGradient> layers_;  ///< the first of which are used
     std::size_t size_ = 0;
+    bool isLinear_ = true;  ///< all layers are
 };
 
 /// Those of one view, made for paints that have long runs of pixels: few pixels do not pay for it.

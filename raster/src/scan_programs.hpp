@@ -145,7 +145,13 @@ public:
     [[gnu::noinline]] void drawAlone(const ProgramView& of, std::uint32_t paint, int row, int first, int end,
                                      Store& store) {
         visitRow(
-            of, paint, row, first, end, [&](int from, int to, Float4 color) { store(row, from, to, color); },
+            of, paint, row, first, end,
+            [&](int from, int to, const RowColors& colors) {
+                if (colors.degree == 0)
+                    store(row, from, to, colors.color);
+                else
+                    store(row, from, to, colors);
+            },
             [&](int from, std::span<const Float4> colors) { store(row, from, colors); });
     }
 
@@ -280,10 +286,10 @@ private:
             addPixel(parts_[i].pixel, parts_[i].share * colors_[i]);
         parts_.clear();
     }
-    /// Calls constant(first, end, colour) or some(first, colours) for pixels of a row, from the left.
-    template <class Constant, class Some>
-    void visitRow(const ProgramView& of, std::uint32_t paint, int row, int first, int end,
-                  Constant&& constant, Some&& some) {
+    /// Calls even(first, end, colours) or some(first, colours) for pixels of a row, from the left.
+    template <class Even, class Some>
+    void visitRow(const ProgramView& of, std::uint32_t paint, int row, int first, int end, Even&& even,
+                  Some&& some) {
         const auto others = [&](int from, int to) {
             std::array<Float4, longestRow> memory;
             for (; from < to; from += int(longestRow)) {
@@ -294,14 +300,15 @@ private:
         };
         if (of.sums == Sums::Light)  // ramps are straight in encoded colours
             return others(first, end);
-        rowPaints_.make(of.paints, paint, of.middles()).visit(row, first, end, constant, some, others);
+        rowPaints_.make(of.paints, paint, of.middles()).visit(row, first, end, even, some, others);
     }
     /// Not inlined, as drawAlone(): the loops round them would pay.
     [[gnu::noinline]] void addRow(const ProgramView& of, std::uint32_t paint, const Run& run) {
         visitRow(
             of, paint, top_ + run.row, run.first, run.end,
-            [&](int from, int to, Float4 color) {
-                sums_->addPixels(std::size_t(run.row), from, to, [&](int) { return run.share * color; });
+            [&](int from, int to, const RowColors& colors) {
+                sums_->addPixels(std::size_t(run.row), from, to,
+                                 [&](int x) { return run.share * colors.at(float(x - from)); });
             },
             [&](int from, std::span<const Float4> colors) {
                 sums_->addPixels(std::size_t(run.row), from, from + int(colors.size()),

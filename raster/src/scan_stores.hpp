@@ -18,6 +18,7 @@
 
 #include <vtm/raster/scan.hpp>
 #include "raster/src/float4.hpp"
+#include "raster/src/row_colors.hpp"
 #include "raster/src/row_sums.hpp"
 
 namespace vtm::asset {
@@ -37,10 +38,32 @@ inline std::uint32_t packed(Float4 color) {
     return std::uint32_t(_mm_cvtsi128_si32(_mm_packus_epi16(halves, halves)));
 }
 
-inline void packFour(const Float4* colors, std::uint8_t* bytes) {
-    const __m128i low = _mm_packs_epi32(toBytes(colors[0]), toBytes(colors[1]));
-    const __m128i high = _mm_packs_epi32(toBytes(colors[2]), toBytes(colors[3]));
+inline void packFour(__m128i a, __m128i b, __m128i c, __m128i d, std::uint8_t* bytes) {
+    const __m128i low = _mm_packs_epi32(a, b), high = _mm_packs_epi32(c, d);
     _mm_storeu_si128(reinterpret_cast<__m128i*>(bytes), _mm_packus_epi16(low, high));
+}
+
+inline void packFour(const Float4* colors, std::uint8_t* bytes) {
+    packFour(toBytes(colors[0]), toBytes(colors[1]), toBytes(colors[2]), toBytes(colors[3]), bytes);
+}
+
+/// Colours of a row, which are near [0, 1], as bytes: packing makes 0 and 255 of what is beyond.
+template <bool isStraight>
+void packRow(const RowColors& row, std::uint8_t* bytes, int count) {
+    RowColors scaled = row.scaled(255);
+    scaled.color += 0.5f;
+    ColorSteps<isStraight> steps(scaled);
+    const auto word = [&](std::size_t k) { return _mm_cvttps_epi32(steps.colors[k]); };
+    int left = count;
+    for (; left >= 4; left -= 4, bytes += 16) {
+        packFour(word(0), word(1), word(2), word(3), bytes);
+        steps.next();
+    }
+    if (left > 0) {
+        std::uint8_t last[16];
+        packFour(word(0), word(1), word(2), word(3), last);
+        std::memcpy(bytes, last, 4 * std::size_t(left));
+    }
 }
 
 #else
@@ -57,6 +80,14 @@ inline std::uint32_t packed(Float4 color) {
 inline void packFour(const Float4* colors, std::uint8_t* bytes) {
     for (int i = 0; i < 4; ++i) {
         const std::uint32_t word = packed(colors[i]);
+        std::memcpy(bytes + 4 * i, &word, 4);
+    }
+}
+
+template <bool isStraight>
+void packRow(const RowColors& row, std::uint8_t* bytes, int count) {
+    for (int i = 0; i < count; ++i) {
+        const std::uint32_t word = packed(row.at(float(i)));
         std::memcpy(bytes + 4 * i, &word, 4);
     }
 }
@@ -91,6 +122,13 @@ public:
         }
     }
 
+    void operator()(int row, int first, int end, const RowColors& colors) const {
+        if (colors.degree < 2)
+            packRow<true>(colors, place(row, first), end - first);
+        else
+            packRow<false>(colors, place(row, first), end - first);
+    }
+
 private:
     std::uint8_t* place(int row, int first) const {
         return target_.pixels + std::size_t(row) * target_.rowBytes + std::size_t(first) * 4;
@@ -119,6 +157,12 @@ public:
             add(unit(color), at);
             at += 4;
         }
+    }
+
+    void operator()(int row, int first, int end, const RowColors& colors) const {
+        float* at = pixels_(row, first, end);
+        for (int i = 0; i < end - first; ++i, at += 4)
+            add(unit(colors.at(float(i))), at);
     }
 
 private:
@@ -154,6 +198,12 @@ public:
         }
     }
 
+    void operator()(int row, int first, int end, const RowColors& colors) const {
+        float* at = pixels_(row, first, end);
+        for (int i = 0; i < end - first; ++i, at += 4)
+            lay(opacity_ * unit(colors.at(float(i))), at);
+    }
+
 private:
     static void lay(Float4 source, float* to) {
         Float4 backdrop;
@@ -178,6 +228,11 @@ public:
             run_(row, first, first + 1, toVec4(color));
             ++first;
         }
+    }
+
+    void operator()(int row, int first, int end, const RowColors& colors) const {
+        for (int x = first; x < end; ++x)
+            run_(row, x, x + 1, toVec4(colors.at(float(x - first))));
     }
 
 private:

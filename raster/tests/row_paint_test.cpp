@@ -149,17 +149,17 @@ int expectRow(RowPaint& rows, int row, int first, int end) {
     };
     rows.visit(
         row, first, end,
-        [&](int from, int to, Float4 color) {
-            for (; from < to; ++from)
-                expectPixel(from, color);
+        [&](int from, int to, const RowColors& colors) {
+            for (int x = from; x < to; ++x)
+                expectPixel(x, colors.at(float(x - from)));
         },
         [&](int from, std::span<const Float4> colors) {
+            EXPECT_LE(colors.size(), longestRow);
             for (const Float4& color : colors)
                 expectPixel(from++, color);
         },
         [&](int from, int to) {
             EXPECT_EQ(from, next);
-            EXPECT_LE(to - from, int(longestRow));
             left += to - from;
             next = to;
         });
