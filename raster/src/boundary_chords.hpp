@@ -22,39 +22,10 @@
 #include "asset/instances.hpp"
 #include "raster/chord.hpp"
 #include "raster/planar_map.hpp"
+#include "raster/src/boundaries.hpp"
 #include "raster/src/float4.hpp"
 
 namespace vtm::asset {
-
-/// Chords misplace no more of a pixel's area where an edge passes through it: 0.4 of a 255th.
-inline constexpr double chordTolerance = 1.0 / 640;
-
-/// A piece with what does not depend on the view: how far it is from its chord, and how much it bends.
-///
-/// **Chords.** Over a step h of s, a chord between points of the curve y = t(s) is off by h² |t''| / 12 in
-/// the mean. If its ends are moved outwards by that, it covers exactly what the curve does, t'' being linear.
-/// The piece's own ends stay where they are, so the first and the last chord, of which one end stays, are
-/// shorter by √½. Then only the chords in which an edge enters and leaves a pixel misplace something: a part
-/// of one up to 0.0080 h³ |t''| pixels if h is in pixels, of a first or last one 0.0087, and 0.0147 h³ of
-/// what t'' changes by over half of the piece where its two ends bend by different amounts.
-struct Boundary {
-    PlanarPiece piece;
-    double bulge;
-    double bend;   ///< a single chord is off by so much in the mean, where a lattice step is a pixel
-    double steps;  ///< and so many whole chords are needed, more than one
-
-    explicit Boundary(const PlanarPiece& p) : piece(p), bulge(0), bend(0), steps(0) {
-        if (p.slopeA == 0 && p.slopeB == 0)
-            return;
-        bulge = p.bulge();
-        const glm::dvec2 chord = p.b - p.a;
-        const double length2 = glm::dot(chord, chord), first = p.bend(0), last = p.bend(1);
-        const double most = std::max(std::abs(first), std::abs(last));
-        bend = most * std::sqrt(length2) / 12;
-        constexpr double perCurve = 2 * 0.0087, perChange = 0.0147 / 2;
-        steps = std::cbrt((perCurve * most + perChange * std::abs(last - first)) * length2 / chordTolerance);
-    }
-};
 
 /// Chords by the band of rows that they meet; those of several bands are in each of them.
 class Bands {
@@ -71,19 +42,22 @@ public:
             return;
         const auto last = unsigned(std::min(bottom, height - 1)) / bandRows;
         for (unsigned band = unsigned(std::max(top, 0.0f)) / bandRows; band <= last; ++band)
-            chords_[band].push_back(chord);
+            chords_[band].emplace_back(chord.a, chord.b, chord.left, chord.right);
     }
-    /// Those from one point to the next.
+    /// Those from one point to the next. Most lie in the band of the one before.
     void add(std::span<const glm::vec2> points, std::uint32_t left, std::uint32_t right, float width,
              float height) {
-        if (points.size() > 2)
-            if (std::vector<Chord>* band = onlyBand(points, height)) {
-                for (std::size_t i = 1; i < points.size(); ++i)
-                    band->push_back({points[i - 1], points[i], left, right});
-                return;
+        glm::vec2 a = points[0];
+        Rows rows = rowsOf(a.y, height);
+        for (const glm::vec2& b : points.subspan(1)) {
+            if (!rows.hold(b.y)) {
+                add({a, b, left, right}, width, height);
+                rows = rowsOf(b.y, height);
+            } else if (std::min(a.x, b.x) < width) {
+                rows.band->emplace_back(a, b, left, right);
             }
-        for (std::size_t i = 1; i < points.size(); ++i)
-            add({points[i - 1], points[i], left, right}, width, height);
+            a = b;
+        }
     }
     /// All of some, which lie in the picture between two heights. None is level.
     template <class Some>
@@ -102,17 +76,19 @@ public:
     std::span<const Chord> of(int band) const { return chords_[std::size_t(band)]; }
 
 private:
-    /// The one in which all points are, null if there is none.
-    std::vector<Chord>* onlyBand(std::span<const glm::vec2> points, float height) {
-        float top = points[0].y, bottom = top;
-        for (const glm::vec2& point : points.subspan(1)) {
-            top = std::min(top, point.y);
-            bottom = std::max(bottom, point.y);
-        }
-        if (!(top >= 0 && bottom < height))
-            return nullptr;
-        const unsigned band = unsigned(top) / bandRows;
-        return band == unsigned(bottom) / bandRows ? &chords_[band] : nullptr;
+    /// A band, and the heights in it.
+    struct Rows {
+        float top = 0, bottom = 0;
+        std::vector<Chord>* band = nullptr;
+
+        bool hold(float y) const { return y >= top && y < bottom; }
+    };
+    /// Of the band that a height is in; none beside the picture.
+    Rows rowsOf(float y, float height) {
+        if (!(y >= 0 && y < height))
+            return {};
+        const unsigned band = unsigned(y) / bandRows;
+        return {float(band * bandRows), std::min(float((band + 1) * bandRows), height), &chords_[band]};
     }
 
     std::vector<std::vector<Chord>> chords_;
@@ -155,11 +131,40 @@ public:
         return mayMatter(min, max) && reachOf(min, max).max.x > 0;
     }
 
-    /// Nothing if it changes no pixel.
+    /// Nothing of curves that change no pixel.
+    void add(const Boundaries& boundaries) {
+        addPolylines(boundaries);
+        for (const Boundary& curve : boundaries.curves())
+            add(curve);
+    }
+    /// Wherever they are.
+    void addAnywhere(const Boundaries& boundaries) {
+        addPolylines(boundaries);
+        for (const Boundary& curve : boundaries.curves())
+            addBetween(place(curve.piece.a), place(curve.piece.b), curve);
+    }
+
+private:
+    /// Of one piece: a quarter turn as long as the largest view has fewer.
+    static constexpr double maxChords = 4096;
+    /// So many points are passed on together.
+    static constexpr std::size_t maxPoints = 32;
+
+    /// What takes their chords looks where they are.
+    void addPolylines(const Boundaries& boundaries) {
+        std::array<glm::vec2, maxPoints> placed;
+        boundaries.forEachPolyline(
+            [&](std::span<const glm::dvec2> points, std::uint32_t left, std::uint32_t right) {
+                for (std::size_t first = 0; first + 1 < points.size(); first += maxPoints - 1) {
+                    const std::size_t count = std::min(points.size() - first, maxPoints);
+                    for (std::size_t i = 0; i < count; ++i)
+                        placed[i] = toFloats(place(points[first + i]));
+                    take(std::span(placed).first(count), left, right);
+                }
+            });
+    }
     void add(const Boundary& boundary) {
         const Double2 a = place(boundary.piece.a), b = place(boundary.piece.b);
-        if (boundary.bend == 0)  // what takes the chord looks where it is
-            return addChord(a, b, boundary.piece);
         const double bulge = boundary.bulge * stretch_;
         const Double2 low = (a < b ? a : b) - bulge, high = (a < b ? b : a) + bulge;
         if (high[1] <= 0 || low[1] >= height_ || low[0] >= width_)
@@ -169,15 +174,6 @@ public:
             return addChord(a, b, boundary.piece);
         addBetween(a, b, boundary);
     }
-    /// Wherever it is.
-    void addAnywhere(const Boundary& boundary) {
-        addBetween(place(boundary.piece.a), place(boundary.piece.b), boundary);
-    }
-
-private:
-    /// Of one piece: a quarter turn as long as the largest view has fewer.
-    static constexpr double maxChords = 4096;
-
     /// The box around the image of a box.
     struct PixelReach {
         glm::dvec2 min, max;
@@ -209,12 +205,12 @@ private:
         const glm::dvec2 d = piece.b - piece.a;
         const Double2 across = down_ * d.x - right_ * d.y;
         const Double2 p0 = a + c0 * across, p1 = b - a + c1 * across, p2 = c2 * across, p3 = c3 * across;
-        std::array<glm::vec2, 32> points;
+        std::array<glm::vec2, maxPoints> points;
         points[0] = toFloats(a);
         std::size_t made = 1;
         for (int i = 1; i < count; ++i) {
             if (made == points.size() - 1) {  // room for the last one stays
-                take(std::span(points).first(made), piece);
+                take(std::span(points).first(made), piece.left, piece.right);
                 points[0] = points[made - 1];
                 made = 1;
             }
@@ -222,15 +218,15 @@ private:
             points[made++] = toFloats(p0 + s * (p1 + s * (p2 + s * p3)));
         }
         points[made++] = toFloats(b);
-        take(std::span(points).first(made), piece);
+        take(std::span(points).first(made), piece.left, piece.right);
     }
 
     void addChord(Double2 a, Double2 b, const PlanarPiece& piece) {
         const std::array<glm::vec2, 2> ends{toFloats(a), toFloats(b)};
-        take(ends, piece);
+        take(ends, piece.left, piece.right);
     }
-    void take(std::span<const glm::vec2> points, const PlanarPiece& piece) {
-        take_(points, mirrored_ ? piece.right : piece.left, mirrored_ ? piece.left : piece.right);
+    void take(std::span<const glm::vec2> points, std::uint32_t left, std::uint32_t right) {
+        take_(points, mirrored_ ? right : left, mirrored_ ? left : right);
     }
 
     float width_, height_;

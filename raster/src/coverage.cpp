@@ -137,7 +137,7 @@ struct Scratch {
 
 struct CoverageScanner::Drawn {
     MapPlace place;
-    std::vector<Boundary> boundaries;  ///< with paint 1 on one side and 0 on the other
+    Boundaries boundaries;  ///< with paint 1 on one side and 0 on the other
 };
 
 CoverageScanner::CoverageScanner(const AssetView& mask) {
@@ -148,16 +148,15 @@ CoverageScanner::CoverageScanner(const AssetView& mask) {
 CoverageScanner::CoverageScanner(const PlanarMap& mask) { add(mask); }
 
 void CoverageScanner::add(const PlanarMap& mask) {
-    Drawn drawn{mask, {}};
-    drawn.boundaries.reserve(mask.pieces.size());
+    std::vector<PlanarPiece> pieces;
     for (PlanarPiece piece : mask.pieces) {
         if ((piece.left == 0) == (piece.right == 0))
             continue;
         piece.left = piece.left != 0;
         piece.right = piece.right != 0;
-        drawn.boundaries.emplace_back(piece);
+        pieces.push_back(piece);
     }
-    drawn_.push_back(std::move(drawn));
+    drawn_.push_back({mask, Boundaries(pieces)});
 }
 
 CoverageScanner::~CoverageScanner() = default;
@@ -175,8 +174,7 @@ void CoverageScanner::scan(const View& view,
     scratch.bands.clear(view.height);
     for (const Drawn& drawn : drawn_) {
         auto chords = chordsOf(drawn.place, view, scratch.bands);
-        for (const Boundary& boundary : drawn.boundaries)
-            chords.add(boundary);
+        chords.add(drawn.boundaries);
     }
     scratch.coverage.resize(view.width);
     for (int band = 0; band * bandRows < view.height; ++band) {

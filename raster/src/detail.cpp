@@ -8,7 +8,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "raster/src/boundary_chords.hpp"
+#include "raster/src/boundaries.hpp"
 #include "raster/src/row_sums.hpp"
 
 namespace vtm::asset {
@@ -133,15 +133,14 @@ private:
 
 class Merger {
 public:
-    Merger(std::span<const Boundary> boundaries, const DetailSquare& square, double pixel)
-        : boundaries_(boundaries), square_(square), pixel_(pixel) {
-        pieces_.reserve(boundaries.size());
-        for (const Boundary& boundary : boundaries)
-            pieces_.push_back(boundary.piece.left < boundary.piece.right ? boundary.piece
-                                                                         : reversed(boundary.piece));
+    Merger(std::span<const PlanarPiece> pieces, const DetailSquare& square, double pixel)
+        : square_(square), pixel_(pixel) {
+        pieces_.reserve(pieces.size());
+        for (const PlanarPiece& piece : pieces)
+            pieces_.push_back(piece.left < piece.right ? piece : reversed(piece));
     }
 
-    std::vector<Boundary> run() {
+    std::vector<PlanarPiece> run() {
         const Followers followers(pieces_, square_);
         std::vector<std::uint8_t> done(pieces_.size());
         const auto follow = [&](std::uint32_t first) {
@@ -150,7 +149,7 @@ public:
             for (std::uint32_t i = first; i != none && !done[i]; i = followers.next[i]) {
                 done[i] = true;
                 chain_.push_back(pieces_[i]);
-                bulges_.push_back(boundaries_[i].bulge);
+                bulges_.push_back(pieces_[i].bulge());
             }
         };
         for (std::uint32_t i = 0; i < pieces_.size(); ++i)
@@ -242,7 +241,7 @@ private:
         piece.b = to;
         piece.slopeA = piece.slopeB = 0;
         if (from != to)
-            merged_.emplace_back(piece);
+            merged_.push_back(piece);
     }
     /// Two straight ones with so much on their left, and on the right of the line from end to end.
     void addBent(const PlanarPiece& piece, dvec2 from, dvec2 to, double area) {
@@ -297,25 +296,24 @@ private:
                 kept.a = from;
             if (i + 1 == run.end)
                 kept.b = to;
-            merged_.emplace_back(kept);
+            merged_.push_back(kept);
         }
     }
 
-    const std::span<const Boundary> boundaries_;
     const DetailSquare& square_;
     const double pixel_;
     std::vector<PlanarPiece> pieces_, chain_;
     std::vector<double> bulges_;  ///< of the chain's
-    std::vector<Boundary> merged_;
+    std::vector<PlanarPiece> merged_;
     std::vector<Run> runs_;
     std::vector<dvec2> points_, moved_;
 };
 
 }  // namespace
 
-std::vector<Boundary> mergeChains(std::span<const Boundary> boundaries, const DetailSquare& square,
-                                  double pixel) {
-    return Merger(boundaries, square, pixel).run();
+std::vector<PlanarPiece> mergeChains(std::span<const PlanarPiece> pieces, const DetailSquare& square,
+                                     double pixel) {
+    return Merger(pieces, square, pixel).run();
 }
 
 }  // namespace vtm::asset

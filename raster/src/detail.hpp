@@ -14,7 +14,7 @@
 
 #include "raster/detail_map.hpp"
 #include "raster/planar_map.hpp"
-#include "raster/src/boundary_chords.hpp"
+#include "raster/src/boundaries.hpp"
 
 namespace vtm::asset {
 
@@ -33,13 +33,13 @@ struct DetailSquare {
 /// A square on whose border no point lies.
 inline constexpr DetailSquare noBorder{glm::dvec2(-1), glm::dvec2(-1)};
 
-/// Boundaries for pixels of that many lattice steps and larger ones. Chains of pieces between the same two
+/// Pieces for pixels of that many lattice steps and larger ones. Chains of pieces between the same two
 /// regions are followed as long as a straight piece stays near, and the points between two of these are moved
 /// so that the areas beside the chain stay what they are. Points in which chains meet or end, and those on
 /// the square's border, stay where they are, so that what is left is as closed as before. Islands that are
 /// far below a pixel become triangles.
-std::vector<Boundary> mergeChains(std::span<const Boundary> boundaries, const DetailSquare& square,
-                                  double pixel);
+std::vector<PlanarPiece> mergeChains(std::span<const PlanarPiece> pieces, const DetailSquare& square,
+                                     double pixel);
 
 /// Boundaries by octave of the pixel, each made when it is first asked for. get() may be called from several
 /// threads at once.
@@ -57,7 +57,7 @@ public:
     }
 
     template <class Make>
-    std::span<const Boundary> get(int octave, Make&& make) const {
+    const Boundaries& get(int octave, Make&& make) const {
         const Level* first = first_.load(std::memory_order_acquire);
         for (const Level* level = first; level; level = level->next)
             if (level->octave == octave)
@@ -72,7 +72,7 @@ public:
 private:
     struct Level {
         int octave;
-        std::vector<Boundary> boundaries;
+        Boundaries boundaries;
         const Level* next;
     };
 

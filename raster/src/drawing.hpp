@@ -60,7 +60,7 @@ public:
             auto chords = chordsOf(drawn.own.place(), view_, scratch_.bands);
             drawn.own.forEachOfSeen(
                 chords.pixel(), [&](glm::dvec2 min, glm::dvec2 max) { return chords.mayShow(min, max); },
-                [&](const Boundary& boundary) { chords.add(boundary); });
+                [&](const Boundaries& boundaries) { chords.add(boundaries); });
             if (drawn.map != Scanned::noMap)
                 addPlaced(drawn.map, 0, drawn.placed.maps);
         }
@@ -71,8 +71,7 @@ public:
             const std::size_t boxes = drawn.own.boxCount(), parts = boxes + drawn.placedParts();
             const std::size_t from = std::min(first, parts), to = std::min(end, parts);
             auto chords = chordsOf(drawn.own.place(), view_, scratch_.bands);
-            for (std::size_t i = from; i < std::min(to, boxes); ++i)
-                addChords(chords, drawn.own.box(i));
+            addChords(chords, drawn.own, from, std::min(to, boxes));
             if (const std::size_t next = std::max(from, boxes); next < to)
                 addPlaced(drawn.map, (next - boxes) * Scanned::placedOfPart,
                           (to - boxes) * Scanned::placedOfPart);
@@ -102,12 +101,21 @@ public:
     }
 
 private:
+    /// Of a map's boxes first to end - 1.
     template <class Take>
-    static void addChords(Chords<Take>& chords, const BoundaryBox& box) {
-        limits::check();
-        if (chords.mayMatter(box.min(), box.max()))
-            for (const Boundary& boundary : box.at(chords.pixel()))
-                chords.add(boundary);
+    static void addChords(Chords<Take>& chords, const ScannedMap& map, std::size_t first, std::size_t end) {
+        const Boundaries* next = nullptr;
+        for (std::size_t i = first; i < end || next; ++i) {
+            limits::check();
+            const Boundaries* found = nullptr;
+            if (i < end && chords.mayMatter(map.box(i).min(), map.box(i).max())) {
+                found = &map.box(i).at(chords.pixel());
+                found->prefetch();
+            }
+            if (next)
+                chords.add(*next);
+            next = found;
+        }
     }
 
     /// Those first to end - 1 that are placed in a map.
@@ -124,8 +132,7 @@ private:
                 } else if (seen == Seen::Part) {
                     auto chords = chordsOf({toPicture.linear * (1 / own.place().extent), toPicture.offset},
                                            view_, scratch_.bands, std::cref(paints));
-                    for (std::size_t i = 0; i < own.boxCount(); ++i)
-                        addChords(chords, own.box(i));
+                    addChords(chords, own, 0, own.boxCount());
                 }
                 return seen != Seen::Nothing;
             });

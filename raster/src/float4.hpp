@@ -42,6 +42,15 @@ inline float largest(Float4 v) {
     return max;
 }
 
+/// Towards zero; below zero if it is no number of 32 bits.
+inline int truncated(float value) {
+#if defined(__SSE2__)
+    return _mm_cvttss_si32(_mm_set_ss(value));
+#else
+    return std::abs(value) < 2147483648.0f ? int(value) : -1;
+#endif
+}
+
 /// In [0, 1]: rounding leaves sums some 1e-7 outside. NaN, which a view or a paint's matrix beyond single
 /// precision makes, becomes 0.
 inline float unit(float value) { return value > 0 ? std::min(value, 1.0f) : 0.0f; }

@@ -38,8 +38,7 @@ struct PlacedChords {
                     });
         for (std::size_t i = 0; i < map.boxCount(); ++i) {
             limits::check();
-            for (const Boundary& boundary : map.box(i).at(made.pixel()))
-                made.addAnywhere(boundary);
+            made.addAnywhere(map.box(i).at(made.pixel()));
         }
     }
 

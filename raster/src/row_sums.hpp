@@ -73,13 +73,15 @@ public:
     /// its left, going from a to b with y up, minus that on its right. `top`: the first row's y.
     void add(const Chord& chord, float top, int rows, Amount change) {
         glm::vec2 a = float(perSide) * chord.a, b = float(perSide) * chord.b;
+        a.y -= float(perSide) * top;
+        b.y -= float(perSide) * top;
         // ∫ (1 - clamp(x)) dy along the chord is what the pixel has of its right side.
+        if (isInRow(a.y, b.y, rows) && std::max(a.x, b.x) > 0)
+            return addInRow(std::size_t(a.y), std::min(a.x, b.x), std::max(a.x, b.x), change * (a.y - b.y));
         if (a.y > b.y)
             std::swap(a, b);
         else
             change = -change;
-        a.y -= float(perSide) * top;
-        b.y -= float(perSide) * top;
         const float end = std::min(b.y, float(perSide) * float(rows));
         float y = std::max(a.y, 0.0f);
         if (!(y < end))
@@ -192,7 +194,14 @@ private:
         const std::uint64_t bits = (std::uint64_t(2) << more) - 1;
         const unsigned shift = first % 64;
         touched[first / 64] |= bits << shift;
-        touched[first / 64 + 1] |= bits >> 1 >> (63 - shift);
+        if (shift + more >= 64) [[unlikely]]
+            touched[first / 64 + 1] |= bits >> 1 >> (63 - shift);
+    }
+
+    /// Whether two heights lie in one row of the band.
+    static bool isInRow(float a, float b, int rows) {
+        const int row = truncated(a);
+        return row == truncated(b) && std::min(a, b) >= 0 && row >= 0 && row < int(perSide) * rows;
     }
 
     /// What is left of the picture, from y to end, changes its first column. Not inlined: what is inside

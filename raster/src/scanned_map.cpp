@@ -43,25 +43,27 @@ std::pair<Cell, Entry> entryAt(const AssetView& asset, Entry entry, Cell wanted)
 }  // namespace
 
 BoundaryBox::BoundaryBox(std::span<const PlanarPiece> pieces, std::optional<DetailSquare> square)
-    : boundaries_(pieces.begin(), pieces.end()), square_(square) {
+    : boundaries_(pieces), square_(square) {
     double length = 0;
-    for (std::size_t i = 0; i < boundaries_.size(); ++i) {
-        const PlanarPiece& p = boundaries_[i].piece;
-        const double bulge = boundaries_[i].bulge;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const PlanarPiece& p = pieces[i];
+        const double bulge = p.bulge();
         const glm::dvec2 low = glm::min(p.a, p.b) - bulge, high = glm::max(p.a, p.b) + bulge;
         min_ = i == 0 ? low : glm::min(min_, low);
         max_ = i == 0 ? high : glm::max(max_, high);
         length += glm::distance(p.a, p.b);
     }
-    if (!boundaries_.empty())
-        meanLength_ = length / double(boundaries_.size());
+    if (!pieces.empty())
+        meanLength_ = length / double(pieces.size());
 }
 
-std::span<const Boundary> BoundaryBox::at(double pixel) const {
+const Boundaries& BoundaryBox::at(double pixel) const {
     if (!square_ || meanLength_ > longPiece * pixel)
         return boundaries_;
     const int octave = std::ilogb(pixel);
-    return levels_.get(octave, [&] { return mergeChains(boundaries_, *square_, std::ldexp(1.0, octave)); });
+    return levels_.get(octave, [&] {
+        return Boundaries(mergeChains(boundaries_.pieces(), *square_, std::ldexp(1.0, octave)));
+    });
 }
 
 ScannedMap::ScannedMap(const AssetView& asset, const Map& map) : place_{{map.x, map.y}, map.side} {
@@ -167,8 +169,7 @@ PlanarMap mapForPixels(const AssetView& asset, const Map& map, double pixel) {
     const ScannedMap scanned(asset, map);
     PlanarMap all{scanned.place(), {}};
     for (std::size_t i = 0; i < scanned.boxCount(); ++i)
-        for (const Boundary& boundary : scanned.box(i).at(pixel))
-            all.pieces.push_back(boundary.piece);
+        std::ranges::copy(scanned.box(i).at(pixel).pieces(), std::back_inserter(all.pieces));
     return all;
 }
 

@@ -17,7 +17,7 @@
 #include <vtm/limits/limits.hpp>
 #include "raster/map_part.hpp"
 #include "raster/planar_map.hpp"
-#include "raster/src/boundary_chords.hpp"
+#include "raster/src/boundaries.hpp"
 #include "raster/src/detail.hpp"
 
 namespace vtm::asset {
@@ -34,10 +34,10 @@ public:
     glm::dvec2 max() const { return max_; }
     /// What to draw where a pixel is so many lattice steps: the boundaries, or fewer that look the same
     /// there. Made when first asked for.
-    std::span<const Boundary> at(double pixel) const;
+    const Boundaries& at(double pixel) const;
 
 private:
-    std::vector<Boundary> boundaries_;
+    Boundaries boundaries_;
     glm::dvec2 min_{0}, max_{0};
     double meanLength_ = 0;
     std::optional<DetailSquare> square_;
@@ -65,21 +65,19 @@ public:
     }
 
     /// Those of the picture that is the map's in the squares for which `isSeen(min, max)` says so of their
-    /// boundaries' box, and transparent elsewhere: calls visit(boundary) for each, where a pixel is so many
-    /// steps.
+    /// boundaries' box, and transparent elsewhere: calls visit(boundaries) for some after the other, where a
+    /// pixel is so many steps.
     template <class IsSeen, class Visit>
     void forEachOfSeen(double pixel, IsSeen&& isSeen, Visit&& visit) const {
         std::array<Borders, 2> borders;
         for (std::size_t i = 0; i < squares_.size(); ++i) {
             limits::check();
             if (isSeen(squares_[i].min, squares_[i].max)) {
-                for (const Boundary& boundary : boxes_[i].at(pixel))
-                    visit(boundary);
+                visit(boxes_[i].at(pixel));
                 addBorders(squares_[i], borders);
             }
         }
-        for (const PlanarPiece& seam : seams(std::move(borders)))
-            visit(Boundary(seam));
+        visit(Boundaries(seams(std::move(borders))));
     }
 
     /// Brings it to the map of another asset, whose tree is another one in these squares alone.

@@ -26,15 +26,8 @@ double sum(std::uint32_t paint, const PlanarPiece& p) {
     return double(p.left == paint) - double(p.right == paint);
 }
 
-std::vector<Boundary> boundariesOf(const Pieces& pieces) { return {pieces.begin(), pieces.end()}; }
-Pieces piecesOf(const std::vector<Boundary>& boundaries) {
-    Pieces pieces;
-    for (const Boundary& boundary : boundaries)
-        pieces.push_back(boundary.piece);
-    return pieces;
-}
 Pieces merged(const Pieces& pieces, double pixel, const DetailSquare& square = nowhere) {
-    return piecesOf(mergeChains(boundariesOf(pieces), square, pixel));
+    return mergeChains(pieces, square, pixel);
 }
 
 /// Of a paint's region, whatever else there is.
