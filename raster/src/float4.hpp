@@ -34,6 +34,15 @@ inline Float4 float4(const std::uint8_t* p) {
 }
 inline glm::vec4 toVec4(Float4 v) { return {v[0], v[1], v[2], v[3]}; }
 
+inline Float4 largerOf(Float4 a, Float4 b) { return a > b ? a : b; }
+inline Float4 squareRoot(Float4 v) {
+#if defined(__SSE2__)
+    return _mm_sqrt_ps(v);
+#else
+    return Float4{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])};
+#endif
+}
+
 /// The largest magnitude of a channel.
 inline float largest(Float4 v) {
     float max = 0;

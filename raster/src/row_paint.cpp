@@ -22,6 +22,9 @@ constexpr float unbounded = std::numeric_limits<float>::infinity();
 /// step of 8 bits.
 constexpr float rowTolerance = 1.0f / 2048;
 
+/// The colours of a stretch that samples tell are no further from those of its pixels.
+constexpr float sampleTolerance = rowTolerance / 4;
+
 /// What the mean beyond a stop is off by, in pixels, if u is taken for even over a pixel: directions differ
 /// in it.
 constexpr float shapeError = 0.0045f;
@@ -74,6 +77,84 @@ float RowGradient::radialWidth(Pixel pixel, float u) const {
     return evenWidth * std::hypot(glm::dot(slope, vec2(radial_.right)), glm::dot(slope, vec2(radial_.down)));
 }
 
+unsigned RowGradient::layOver(const Pixels& pixels, Colors& colors) {
+    const auto difference = [&](int Pixel::*of) {
+        const int first = pixels[0].*of;
+        return Float4{0, float(pixels[1].*of - first), float(pixels[2].*of - first),
+                      float(pixels[3].*of - first)};
+    };
+    const Float4 right = difference(&Pixel::x), down = difference(&Pixel::row);
+    Float4 offsets;
+    unsigned known = 15;
+    if (isRadial_) {
+        const vec2 d = radial_.fromFocus(pixels[0]), toRight(radial_.right), toDown(radial_.down);
+        const NestedCircles& c = radial_.circles;
+        const Float4 x = d.x + right * toRight.x + down * toDown.x,
+                     y = d.y + right * toRight.y + down * toDown.y;
+        const Float4 squared = x * x + y * y, b = (x * c.f.x + y * c.f.y - c.fr * (1 - c.fr)) * c.inverse;
+        offsets = b + squareRoot(largerOf(b * b + (squared - c.fr * c.fr) * c.inverse, Float4{}));
+        for (unsigned i = 0; i < 4; ++i)
+            known &= ~(unsigned(squared[i] <= radial_.nearSquared) << i);
+    } else {
+        offsets = linear_.at(pixels[0]) + right * float(linear_.right) + down * float(linear_.down);
+    }
+    for (unsigned i = 0; i < 4; ++i) {
+        const float u = offsets[i];
+        const Segment& segment = find(u);
+        if (segment.shape == Shape::Mixed)
+            known &= ~(1u << i);
+        else
+            colors[i] = over(
+                segment.shape == Shape::Turning ? segment.turned(u, widthAt(pixels[i], u)) : segment.at(u),
+                colors[i]);
+    }
+    return known;
+}
+
+int RowGradient::layOver(Pixel first, int count, Samples& colors) {
+    const float step = 0.25f * float(count - 1);
+    const Float4 steps = step * Float4{0, 1, 2, 3};
+    Float4 offsets;  // of all but the last sample
+    float last, dip = 0;
+    if (isRadial_) {
+        const RadialSteps row = radial_.stepsFrom(first);
+        const float clear = 2 * step * radial_.pixel + radial_.near;
+        if (!(row.nearest(4 * step) >= clear * clear))
+            return count / 2;
+        offsets = row.at(steps);
+        last = row.at(Float4{4 * step, 0, 0, 0})[0];
+        // u is convex: between two samples it is no more than that below both.
+        dip =
+            0.125f * std::max({offsets[2] - 2 * offsets[1] + offsets[0],
+                               offsets[3] - 2 * offsets[2] + offsets[1], last - 2 * offsets[3] + offsets[2]});
+    } else {
+        const float change = float(linear_.right);
+        offsets = linear_.at(first) + change * steps;
+        last = offsets[0] + 4 * step * change;
+    }
+    const Segment& segment = find(offsets[0]);
+    if (segment.shape == Shape::Turning || segment.shape == Shape::Mixed)
+        return 0;
+    if (!segment.hold(offsets) || !segment.holds(last)) {
+        float before = offsets[0];
+        for (std::size_t i = 1; i < samples; ++i) {
+            const float u = i == 4 ? last : offsets[i];
+            if (!segment.holds(u)) {
+                const float bound = u < segment.low ? segment.low : segment.high;
+                return std::min(int(step * (float(int(i)) - 1 + (bound - before) / (u - before))) + 1,
+                                count - 1);
+            }
+            before = u;
+        }
+    }
+    if (dip > 0 && !(std::min({offsets[0], offsets[1], offsets[2], offsets[3], last}) - dip >= segment.low))
+        return count / 2;
+    for (std::size_t i = 0; i < 4; ++i)
+        colors[i] = over(segment.at(offsets[i]), colors[i]);
+    colors[4] = over(segment.at(last), colors[4]);
+    return count;
+}
+
 // ---- Segments -------------------------------------------------------------------------------------
 
 bool RowGradient::prepare(const GradientView& gradient, bool isRadial, const Solids& solids,
@@ -117,15 +198,18 @@ RowGradient::Blur RowGradient::prepareRadial(const Gradient& gradient, const Pix
         return {unbounded, 0, 0, 0, 0};
     const glm::dmat2 linear(m[0], m[1], m[2], m[3]);
     const dvec2 first = linear * pixels.first + dvec2(m[4], m[5]) - dvec2(f);
-    radial_ = {first, linear * pixels.right, linear * pixels.down, {f, gradient.fr}, 0, 0};
+    radial_ = {first, linear * pixels.right, linear * pixels.down, {f, gradient.fr}, 0, 0, 0, 0, 0};
     const vec2 right(radial_.right), down(radial_.down);
     const float squares = glm::dot(right, right) + glm::dot(down, down);
     const float area = std::abs(right.x * down.y - right.y * down.x);
     // What the sides change u by has a length between these: singular values, times the slope of u.
+    radial_.rightSquared = glm::dot(right, right);
+    radial_.changeB = glm::dot(right, f) * radial_.circles.inverse;
     const float longest =
         std::sqrt(0.5f * (squares + std::sqrt(std::max(squares * squares - 4 * area * area, 0.0f))));
     const float most = longest / gap, least = longest > 0 ? area / longest / (grow + offCentre) : 0;
     radial_.nearSquared = farFromTip * squares;
+    radial_.near = std::sqrt(radial_.nearSquared);
     radial_.pixel = longest;
     return {0.5f * (glm::length(right) + glm::length(down)) / gap, most, evenWidth * most,
             (least * least + most * most) / 24, (most * most - least * least) / 24};
@@ -265,8 +349,8 @@ RowGradient::Joint RowGradient::jointOf(const Segment& one, const Segment& next,
 void RowGradient::limitTip(float change) {
     // At a distance of d pixels the mean of u over a pixel is 1 / (24 d) of a pixel more, at the tip 0.38.
     const float distance = 0.38f * change <= rowTolerance ? 0 : std::max(change / (20 * rowTolerance), 0.75f);
-    const float near = distance * radial_.pixel;
-    radial_.nearSquared = std::min(radial_.nearSquared, near * near);
+    radial_.near = std::min(radial_.near, distance * radial_.pixel);
+    radial_.nearSquared = radial_.near * radial_.near;
 }
 
 // ---- Programs -------------------------------------------------------------------------------------
@@ -312,6 +396,32 @@ bool RowPaint::addLayer(const GradientView& gradient, bool isRadial, const RowGr
     if (layers_.size() == size_)
         layers_.emplace_back();
     return layers_[size_++].prepare(gradient, isRadial, solids, pixels);
+}
+
+int RowPaint::sample(Pixel first, int maximum, RowColors& colors) {
+    for (int count = maximum; count >= fewSampled;) {
+        const int right = sampleOnce(first, count, colors);
+        if (right == count)
+            return count;
+        count = right;
+    }
+    return 0;
+}
+
+int RowPaint::sampleOnce(Pixel first, int count, RowColors& colors) {
+    RowGradient::Samples at{};
+    for (std::size_t k = 0; k < size_; ++k)
+        if (const int right = layers_[k].layOver(first, count, at); right < count)
+            return right;
+    // Through every second one; the others are near it if there is no more than that.
+    const Float4 once = at[2] - at[0], twice = at[0] - 2 * at[2] + at[4];
+    const Float4 one = at[1] - (at[0] + 0.5f * once - 0.125f * twice),
+                 three = at[3] - (at[0] + 1.5f * once + 0.375f * twice);
+    if (!(std::max(largest(one), largest(three)) <= sampleTolerance))
+        return count / 2;
+    const float perPixel = 2 / float(count - 1);
+    colors = {at[0], perPixel * (once - 0.5f * twice), 0.5f * perPixel * perPixel * twice, 2};
+    return count;
 }
 
 std::uint64_t RowPaint::compose(Pixel pixel, std::span<Float4> colors) {

@@ -61,6 +61,12 @@ public:
         return true;
     }
     bool isRadial() const { return isRadial_; }
+    /// Four pixels at once.
+    using Pixels = std::array<Pixel, 4>;
+    using Colors = std::array<Float4, 4>;
+    /// Lays the means over pixels over others. Returns those of which they are known here, a bit each.
+    unsigned layOver(const Pixels& pixels, Colors& colors);
+
     /// Of pixels of a row, those from the first on of which a linear gradient knows the same.
     struct Stretch {
         std::size_t count;
@@ -91,6 +97,13 @@ public:
                 {segment.at(u), change * (segment.slope + 2 * x * segment.bend),
                  change * change * segment.bend, 2}};
     }
+    /// The colours of pixels of a row at five places: the first and the last pixel, and evenly between them.
+    static constexpr std::size_t samples = 5;
+    using Samples = std::array<Float4, samples>;
+    /// Lays this gradient over them. Returns for how many of the pixels that is right, and lays nothing if
+    /// not for all: between samples, a ramp must not turn.
+    int layOver(Pixel first, int count, Samples& colors);
+
     /// Visits no more than longestRow pixels of a row, from the left: constant(first, end, colour),
     /// some(first, colours), or others(first, end) where the mean over a pixel is not known here. Pixels are
     /// counted from 0.
@@ -150,6 +163,10 @@ private:
                    (y * (0.5f * y - width / 3) + rest * (2 * width + rest)) * turnBend;
         }
         bool holds(float u) const { return u >= low && u < high; }
+        bool hold(Float4 u) const {
+            const auto in = (u >= low) & (u < high);
+            return (in[0] & in[1] & in[2] & in[3]) != 0;
+        }
         /// Those, from the first on, that it holds; the first in any case.
         Offsets held(Offsets offsets) const;
         /// The same of a row.
@@ -226,11 +243,40 @@ private:
             return at(from) == at({from.x + int(count) - 1, from.row});
         }
     };
+    /// Along a row, by pixels from one on: b + t changeB + sqrt(s0 + t (s1 + t s2)).
+    struct RadialSteps {
+        float b, changeB, s0, s1, s2;
+        float squared, along, rightSquared;  ///< of where the row begins, from the focus
+
+        Float4 at(Float4 t) const {
+            return b + t * changeB + squareRoot(largerOf(s0 + t * (s1 + t * s2), Float4{}));
+        }
+        /// The square of the distance from the focus, where that is least.
+        float nearest(float length) const {
+            const float t = std::clamp(-along, 0.0f, length * rightSquared) / rightSquared;
+            return squared + t * (2 * along + t * rightSquared);
+        }
+    };
     /// Circles that lie within each other: u = b + sqrt(b² + c) (gradient.cpp).
     struct Radial {
         glm::dvec2 first, right, down;  ///< of pixels, from the focus
         NestedCircles circles;
-        float nearSquared, pixel;
+        float near, nearSquared, pixel;
+        float rightSquared, changeB;  ///< along a row
+
+        RadialSteps stepsFrom(Pixel from) const {
+            const glm::vec2 d = fromFocus(from);
+            const float squared = glm::dot(d, d), along = glm::dot(d, glm::vec2(right)),
+                        b = circles.b(d.x, d.y);
+            return {b,
+                    changeB,
+                    b * b + (squared - circles.fr * circles.fr) * circles.inverse,
+                    2 * (b * changeB + along * circles.inverse),
+                    changeB * changeB + rightSquared * circles.inverse,
+                    squared,
+                    along,
+                    rightSquared};
+        }
 
         glm::vec2 fromFocus(Pixel at) const { return first + double(at.x) * right + double(at.row) * down; }
         bool isNear(Pixel at) const {
@@ -305,6 +351,14 @@ public:
         }
         return true;
     }
+    /// Sets the means over four pixels. Returns those of which they are known here, a bit each.
+    unsigned at(const RowGradient::Pixels& pixels, RowGradient::Colors& colors) {
+        unsigned known = isReady() ? 15 : 0;
+        colors = {};
+        for (std::size_t k = 0; k < size_ && known != 0; ++k)
+            known &= layers_[k].layOver(pixels, colors);
+        return known;
+    }
     /// Visits pixels of a row from the left: even(first, end, colours), some(first, colours) of no more than
     /// longestRow, or others(first, end) where the mean over a pixel is not known here.
     template <class Even, class Some, class Others>
@@ -312,14 +366,14 @@ public:
         if (size_ == 0)
             return others(first, end);
         if (!isLinear_)
-            return visitSome(row, first, end, even, some, others);
+            return visitSampled(row, first, end, even, some, others);
         while (first < end) {
             const Stretch stretch = stretchAt({first, row}, std::size_t(end - first));
             const int next = first + int(stretch.count);
             if (stretch.isEven)
                 even(first, next, stretch.colors);
             else if (stretch.isKnown)
-                visitSome(row, first, next, even, some, others);
+                visitSampled(row, first, next, even, some, others);
             else
                 others(first, next);
             first = next;
@@ -352,6 +406,33 @@ private:
                   std::max(above.degree, degree + colors.degree)};
         return true;
     }
+
+    /// Stretches that samples tell, and the other pixels one by one.
+    template <class Even, class Some, class Others>
+    void visitSampled(int row, int first, int end, Even&& even, Some&& some, Others&& others) {
+        if (size_ == 1 && end - first < fewForOne)
+            return visitSome(row, first, end, even, some, others);
+        int maximum = mostSampled, toPass = fewSampled;  // where samples tell nothing, soon only now and then
+        while (first < end) {
+            RowColors colors;
+            const int count = sample({first, row}, std::min(end - first, maximum), colors);
+            const int next = first + std::min(count > 0 ? count : toPass, end - first);
+            if (count > 0)
+                even(first, next, colors);
+            else
+                visitSome(row, first, next, even, some, others);
+            toPass = count > 0 ? fewSampled : std::min(2 * toPass, mostSampled);
+            maximum = std::clamp(2 * count, 2 * fewSampled, mostSampled);
+            first = next;
+        }
+    }
+    /// Fewer pixels are not worth five samples, nor fewer than `fewForOne` of a single gradient; more than
+    /// `mostSampled` are mostly no polynomial.
+    static constexpr int fewSampled = 8, mostSampled = 64, fewForOne = 24;
+    /// The colours of some pixels, no more than a number; returns how many, or 0 if they are too few.
+    int sample(Pixel first, int maximum, RowColors& colors);
+    /// Those of so many, or of how many samples may tell them.
+    int sampleOnce(Pixel first, int count, RowColors& colors);
 
     template <class Even, class Some, class Others>
     void visitSome(int row, int first, int end, Even&& even, Some&& some, Others&& others) {

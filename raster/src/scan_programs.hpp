@@ -270,11 +270,24 @@ private:
     /// Leaves the others. Whether a paint's rows are asked depends on the band alone, and so do its bytes.
     void addKnownParts(RowPaint& rows) {
         std::size_t left = 0;
-        for (const Part& part : parts_)
-            if (Float4 color; rows.at({part.pixel.x, top_ + part.pixel.row}, color))
-                addPixel(part.pixel, part.share * color);
-            else
-                parts_[left++] = part;
+        const std::size_t all = parts_.size();
+        for (std::size_t first = 0; first < all; first += 4) {
+            const std::size_t count = std::min(all - first, std::size_t{4});
+            RowGradient::Pixels pixels;
+            for (std::size_t i = 0; i < 4; ++i) {
+                const BandPixel& pixel = parts_[first + std::min(i, count - 1)].pixel;
+                pixels[i] = {pixel.x, top_ + pixel.row};
+            }
+            RowGradient::Colors colors;
+            const unsigned known = rows.at(pixels, colors);
+            for (std::size_t i = 0; i < count; ++i) {
+                const Part part = parts_[first + i];
+                if ((known >> i & 1) != 0)
+                    addPixel(part.pixel, part.share * colors[i]);
+                else
+                    parts_[left++] = part;
+            }
+        }
         parts_.resize(left);
     }
     void addParts(const ProgramView& of, std::uint32_t paint) {
