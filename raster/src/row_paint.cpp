@@ -111,7 +111,7 @@ unsigned RowGradient::layOver(const Pixels& pixels, Colors& colors) {
     return known;
 }
 
-int RowGradient::layOver(Pixel first, int count, Samples& colors) {
+int RowGradient::layOver(Pixel first, int count, Samples* colors) {
     const float step = 0.25f * float(count - 1);
     const Float4 steps = step * Float4{0, 1, 2, 3};
     Float4 offsets;  // of all but the last sample
@@ -149,9 +149,11 @@ int RowGradient::layOver(Pixel first, int count, Samples& colors) {
     }
     if (dip > 0 && !(std::min({offsets[0], offsets[1], offsets[2], offsets[3], last}) - dip >= segment.low))
         return count / 2;
-    for (std::size_t i = 0; i < 4; ++i)
-        colors[i] = over(segment.at(offsets[i]), colors[i]);
-    colors[4] = over(segment.at(last), colors[4]);
+    if (!colors || segment.isClear)
+        return count;
+    const std::array<float, samples> all{offsets[0], offsets[1], offsets[2], offsets[3], last};
+    for (std::size_t i = 0; i < samples; ++i)
+        (*colors)[i] = over(segment.at(all[i]), (*colors)[i]);
     return count;
 }
 
@@ -198,12 +200,13 @@ RowGradient::Blur RowGradient::prepareRadial(const Gradient& gradient, const Pix
         return {unbounded, 0, 0, 0, 0};
     const glm::dmat2 linear(m[0], m[1], m[2], m[3]);
     const dvec2 first = linear * pixels.first + dvec2(m[4], m[5]) - dvec2(f);
-    radial_ = {first, linear * pixels.right, linear * pixels.down, {f, gradient.fr}, 0, 0, 0, 0, 0};
+    radial_ = {first, linear * pixels.right, linear * pixels.down, {f, gradient.fr}, 0, 0, 0, 0, 0, 0};
     const vec2 right(radial_.right), down(radial_.down);
     const float squares = glm::dot(right, right) + glm::dot(down, down);
     const float area = std::abs(right.x * down.y - right.y * down.x);
     // What the sides change u by has a length between these: singular values, times the slope of u.
     radial_.rightSquared = glm::dot(right, right);
+    radial_.perSquare = 1 / radial_.rightSquared;
     radial_.changeB = glm::dot(right, f) * radial_.circles.inverse;
     const float longest =
         std::sqrt(0.5f * (squares + std::sqrt(std::max(squares * squares - 4 * area * area, 0.0f))));
@@ -226,6 +229,7 @@ void RowGradient::add(Segment segment, const Solids& solids) {
     segment.bend = solids.change(segment.bend);
     segment.turn = solids.change(segment.turn);
     segment.turnBend = solids.change(segment.turnBend);
+    segment.isClear = segment.shape == Shape::Constant && !(largest(segment.color) > 0);
     segments_.push_back(segment);
 }
 
@@ -410,9 +414,12 @@ int RowPaint::sample(Pixel first, int maximum, RowColors& colors) {
 
 int RowPaint::sampleOnce(Pixel first, int count, RowColors& colors) {
     RowGradient::Samples at{};
-    for (std::size_t k = 0; k < size_; ++k)
-        if (const int right = layers_[k].layOver(first, count, at); right < count)
-            return right;
+    int right = count;
+    for (std::size_t k = 0; k < size_ && right >= fewSampled; ++k)
+        right = right == count ? layers_[k].layOver(first, count, &at)
+                               : layers_[k].layOver(first, right, nullptr);
+    if (right < count)
+        return right;
     // Through every second one; the others are near it if there is no more than that.
     const Float4 once = at[2] - at[0], twice = at[0] - 2 * at[2] + at[4];
     const Float4 one = at[1] - (at[0] + 0.5f * once - 0.125f * twice),

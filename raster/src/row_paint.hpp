@@ -100,9 +100,9 @@ public:
     /// The colours of pixels of a row at five places: the first and the last pixel, and evenly between them.
     static constexpr std::size_t samples = 5;
     using Samples = std::array<Float4, samples>;
-    /// Lays this gradient over them. Returns for how many of the pixels that is right, and lays nothing if
-    /// not for all: between samples, a ramp must not turn.
-    int layOver(Pixel first, int count, Samples& colors);
+    /// Returns how many of the pixels samples may tell, since the ramp does not turn between them; lays this
+    /// gradient over the colours, unless they are null, if it is all of them.
+    int layOver(Pixel first, int count, Samples* colors);
 
     /// Visits no more than longestRow pixels of a row, from the left: constant(first, end, colour),
     /// some(first, colours), or others(first, end) where the mean over a pixel is not known here. Pixels are
@@ -147,6 +147,7 @@ private:
         float low, high, start, stop;
         Shape shape;
         Float4 color, slope, bend, turn, turnBend;
+        bool isClear = false;  ///< all of it is transparent
 
         Float4 at(float u) const {
             const float x = u - start;
@@ -246,14 +247,15 @@ private:
     /// Along a row, by pixels from one on: b + t changeB + sqrt(s0 + t (s1 + t s2)).
     struct RadialSteps {
         float b, changeB, s0, s1, s2;
-        float squared, along, rightSquared;  ///< of where the row begins, from the focus
+        float squared, along;  ///< of where the row begins, from the focus
+        float rightSquared, perSquare;
 
         Float4 at(Float4 t) const {
             return b + t * changeB + squareRoot(largerOf(s0 + t * (s1 + t * s2), Float4{}));
         }
         /// The square of the distance from the focus, where that is least.
         float nearest(float length) const {
-            const float t = std::clamp(-along, 0.0f, length * rightSquared) / rightSquared;
+            const float t = std::clamp(-along * perSquare, 0.0f, length);
             return squared + t * (2 * along + t * rightSquared);
         }
     };
@@ -262,7 +264,7 @@ private:
         glm::dvec2 first, right, down;  ///< of pixels, from the focus
         NestedCircles circles;
         float near, nearSquared, pixel;
-        float rightSquared, changeB;  ///< along a row
+        float rightSquared, perSquare, changeB;  ///< along a row
 
         RadialSteps stepsFrom(Pixel from) const {
             const glm::vec2 d = fromFocus(from);
@@ -275,7 +277,8 @@ private:
                     changeB * changeB + rightSquared * circles.inverse,
                     squared,
                     along,
-                    rightSquared};
+                    rightSquared,
+                    perSquare};
         }
 
         glm::vec2 fromFocus(Pixel at) const { return first + double(at.x) * right + double(at.row) * down; }
