@@ -27,7 +27,8 @@
 
 namespace vtm::asset {
 
-/// Chords by the band of rows that they meet; those of several bands are in each of them.
+/// Chords by the band of rows that they meet; those of several bands are in each of them. They are written
+/// part by part: a whole one would be read again before its parts have reached the memory, which stalls.
 class Bands {
 public:
     void clear(int height) {

@@ -101,7 +101,7 @@ public:
     }
 
 private:
-    /// Of a map's boxes first to end - 1.
+    /// Of a map's boxes first to end - 1. While those of one are made, the next one is fetched.
     template <class Take>
     static void addChords(Chords<Take>& chords, const ScannedMap& map, std::size_t first, std::size_t end) {
         const Boundaries* next = nullptr;

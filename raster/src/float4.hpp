@@ -34,7 +34,9 @@ inline Float4 float4(const std::uint8_t* p) {
 }
 inline glm::vec4 toVec4(Float4 v) { return {v[0], v[1], v[2], v[3]}; }
 
+inline float largerOf(float a, float b) { return std::max(a, b); }
 inline Float4 largerOf(Float4 a, Float4 b) { return a > b ? a : b; }
+inline float squareRoot(float v) { return std::sqrt(v); }
 inline Float4 squareRoot(Float4 v) {
 #if defined(__SSE2__)
     return _mm_sqrt_ps(v);

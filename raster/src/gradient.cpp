@@ -220,25 +220,9 @@ NestedCircles::NestedCircles(vec2 focus, float focalRadius)
     : f(focus), fr(focalRadius), a((1 - fr) * (1 - fr) - glm::dot(f, f)), inverse(1 / a) {}
 
 void NestedCircles::rowOffsets(vec2 first, vec2 change, std::span<float> offsets) const {
-    const float b0 = b(first.x, first.y), b1 = glm::dot(change, f) * inverse;
-    const float c0 = (glm::dot(first, first) - fr * fr) * inverse, c1 = glm::dot(first, change) * inverse,
-                c2 = glm::dot(change, change) * inverse;
-    const float s0 = b0 * b0 + c0, s1 = 2 * (b0 * b1 + c1), s2 = b1 * b1 + c2;
-    for (std::size_t i = 0; i < offsets.size(); ++i) {
-        const float t = float(int(i));
-        offsets[i] = b0 + t * b1 + std::sqrt(std::max(s0 + t * (s1 + t * s2), 0.0f));
-    }
-}
-
-PixelRange nearOrigin(vec2 first, vec2 change, float squared, std::size_t count) {
-    const float steps = glm::dot(change, change), middle = steps > 0 ? -glm::dot(first, change) / steps : 0;
-    const vec2 d = first + middle * change;
-    const float rest = squared - glm::dot(d, d);
-    if (!(rest >= 0))
-        return {0, 0};
-    const float half = steps > 0 ? std::sqrt(rest / steps) : 0, maximum = float(count);
-    return {std::size_t(std::clamp(std::floor(middle - half), 0.0f, maximum)),
-            std::size_t(std::clamp(std::ceil(middle + half) + 1, 0.0f, maximum))};
+    const CircleSteps steps = stepsFrom(first, change);
+    for (std::size_t i = 0; i < offsets.size(); ++i)
+        offsets[i] = steps.at(float(int(i)));
 }
 
 std::optional<Float4> linearColors(const GradientView& view, vec2 point, vec2 step, const glm::mat2& pixel,

@@ -1,5 +1,5 @@
 /// \file
-/// Colours that change evenly along a row of pixels, and how fast: what gradients have of rows.
+/// Colours of the pixels of a row as a polynomial of second degree: what gradients look like along rows.
 #pragma once
 
 #include <array>

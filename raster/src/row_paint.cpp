@@ -22,7 +22,7 @@ constexpr float unbounded = std::numeric_limits<float>::infinity();
 /// step of 8 bits.
 constexpr float rowTolerance = 1.0f / 2048;
 
-/// The colours of a stretch that samples tell are no further from those of its pixels.
+/// The two samples that a polynomial does not pass through are no further from it.
 constexpr float sampleTolerance = rowTolerance / 4;
 
 /// What the mean beyond a stop is off by, in pixels, if u is taken for even over a pixel: directions differ
@@ -67,7 +67,7 @@ void RowGradient::Segment::fill(Offsets offsets, std::span<Float4> colors) const
 PixelRange RowGradient::radialOffsets(Pixel first, std::span<float> offsets) const {
     const vec2 d = radial_.fromFocus(first), change(radial_.right);
     radial_.circles.rowOffsets(d, change, offsets);
-    return nearOrigin(d, change, radial_.nearSquared, offsets.size());
+    return nearOrigin(d, change, radial_.near * radial_.near, offsets.size());
 }
 
 float RowGradient::radialWidth(Pixel pixel, float u) const {
@@ -88,13 +88,12 @@ unsigned RowGradient::layOver(const Pixels& pixels, Colors& colors) {
     unsigned known = 15;
     if (isRadial_) {
         const vec2 d = radial_.fromFocus(pixels[0]), toRight(radial_.right), toDown(radial_.down);
-        const NestedCircles& c = radial_.circles;
         const Float4 x = d.x + right * toRight.x + down * toDown.x,
                      y = d.y + right * toRight.y + down * toDown.y;
-        const Float4 squared = x * x + y * y, b = (x * c.f.x + y * c.f.y - c.fr * (1 - c.fr)) * c.inverse;
-        offsets = b + squareRoot(largerOf(b * b + (squared - c.fr * c.fr) * c.inverse, Float4{}));
+        const Float4 squared = x * x + y * y, b = radial_.circles.b(x, y);
+        offsets = b + radial_.circles.root(b, squared);
         for (unsigned i = 0; i < 4; ++i)
-            known &= ~(unsigned(squared[i] <= radial_.nearSquared) << i);
+            known &= ~(unsigned(squared[i] <= radial_.near * radial_.near) << i);
     } else {
         offsets = linear_.at(pixels[0]) + right * float(linear_.right) + down * float(linear_.down);
     }
@@ -112,49 +111,51 @@ unsigned RowGradient::layOver(const Pixels& pixels, Colors& colors) {
 }
 
 int RowGradient::layOver(Pixel first, int count, Samples* colors) {
-    const float step = 0.25f * float(count - 1);
+    const float step = float(count - 1) / (samples - 1), length = float(count - 1);
     const Float4 steps = step * Float4{0, 1, 2, 3};
-    Float4 offsets;  // of all but the last sample
-    float last, dip = 0;
+    Float4 some;  // offsets, of all but the last sample
+    float last;
     if (isRadial_) {
-        const RadialSteps row = radial_.stepsFrom(first);
+        const vec2 d = radial_.fromFocus(first), right(radial_.right);
         const float clear = 2 * step * radial_.pixel + radial_.near;
-        if (!(row.nearest(4 * step) >= clear * clear))
+        if (const PixelRange near = nearOrigin(d, right, clear * clear, std::size_t(count));
+            near.first < near.end)
             return count / 2;
-        offsets = row.at(steps);
-        last = row.at(Float4{4 * step, 0, 0, 0})[0];
-        // u is convex: between two samples it is no more than that below both.
-        dip =
-            0.125f * std::max({offsets[2] - 2 * offsets[1] + offsets[0],
-                               offsets[3] - 2 * offsets[2] + offsets[1], last - 2 * offsets[3] + offsets[2]});
+        const CircleSteps row = radial_.circles.stepsFrom(d, right);
+        some = row.at(steps);
+        last = row.at(length);
     } else {
         const float change = float(linear_.right);
-        offsets = linear_.at(first) + change * steps;
-        last = offsets[0] + 4 * step * change;
+        some = linear_.at(first) + change * steps;
+        last = some[0] + length * change;
     }
-    const Segment& segment = find(offsets[0]);
+    const Segment& segment = find(some[0]);
     if (segment.shape == Shape::Turning || segment.shape == Shape::Mixed)
         return 0;
-    if (!segment.hold(offsets) || !segment.holds(last)) {
-        float before = offsets[0];
-        for (std::size_t i = 1; i < samples; ++i) {
-            const float u = i == 4 ? last : offsets[i];
-            if (!segment.holds(u)) {
-                const float bound = u < segment.low ? segment.low : segment.high;
-                return std::min(int(step * (float(int(i)) - 1 + (bound - before) / (u - before))) + 1,
-                                count - 1);
-            }
-            before = u;
-        }
-    }
-    if (dip > 0 && !(std::min({offsets[0], offsets[1], offsets[2], offsets[3], last}) - dip >= segment.low))
+    const std::array<float, samples> offsets{some[0], some[1], some[2], some[3], last};
+    if (!segment.hold(some) || !segment.holds(last))
+        return std::min(int(step * stepsIn(segment, offsets)) + 1, count - 1);
+    if (isRadial_ && dipOf(offsets) > std::min({some[0], some[1], some[2], some[3], last}) - segment.low)
         return count / 2;
-    if (!colors || segment.isClear)
-        return count;
-    const std::array<float, samples> all{offsets[0], offsets[1], offsets[2], offsets[3], last};
-    for (std::size_t i = 0; i < samples; ++i)
-        (*colors)[i] = over(segment.at(all[i]), (*colors)[i]);
+    if (colors && !segment.isClear)
+        for (std::size_t i = 0; i < samples; ++i)
+            (*colors)[i] = over(segment.at(offsets[i]), (*colors)[i]);
     return count;
+}
+
+/// How many steps between samples it takes to leave the segment; the first one is in it.
+float RowGradient::stepsIn(const Segment& segment, std::span<const float> offsets) {
+    std::size_t i = 1;
+    while (i + 1 < offsets.size() && segment.holds(offsets[i]))
+        ++i;
+    const float before = offsets[i - 1], bound = offsets[i] < segment.low ? segment.low : segment.high;
+    const float share = (bound - before) / (offsets[i] - before);
+    return float(int(i) - 1) + (share > 0 ? std::min(share, 1.0f) : 0);  // of NaN nothing
+}
+
+/// u is convex along a row: between two samples it is no more than that below both.
+float RowGradient::dipOf(const std::array<float, samples>& u) {
+    return 0.125f * std::max({u[2] - 2 * u[1] + u[0], u[3] - 2 * u[2] + u[1], u[4] - 2 * u[3] + u[2]});
 }
 
 // ---- Segments -------------------------------------------------------------------------------------
@@ -200,19 +201,15 @@ RowGradient::Blur RowGradient::prepareRadial(const Gradient& gradient, const Pix
         return {unbounded, 0, 0, 0, 0};
     const glm::dmat2 linear(m[0], m[1], m[2], m[3]);
     const dvec2 first = linear * pixels.first + dvec2(m[4], m[5]) - dvec2(f);
-    radial_ = {first, linear * pixels.right, linear * pixels.down, {f, gradient.fr}, 0, 0, 0, 0, 0, 0};
+    radial_ = {first, linear * pixels.right, linear * pixels.down, {f, gradient.fr}, 0, 0};
     const vec2 right(radial_.right), down(radial_.down);
     const float squares = glm::dot(right, right) + glm::dot(down, down);
     const float area = std::abs(right.x * down.y - right.y * down.x);
     // What the sides change u by has a length between these: singular values, times the slope of u.
-    radial_.rightSquared = glm::dot(right, right);
-    radial_.perSquare = 1 / radial_.rightSquared;
-    radial_.changeB = glm::dot(right, f) * radial_.circles.inverse;
     const float longest =
         std::sqrt(0.5f * (squares + std::sqrt(std::max(squares * squares - 4 * area * area, 0.0f))));
     const float most = longest / gap, least = longest > 0 ? area / longest / (grow + offCentre) : 0;
-    radial_.nearSquared = farFromTip * squares;
-    radial_.near = std::sqrt(radial_.nearSquared);
+    radial_.near = std::sqrt(farFromTip * squares);
     radial_.pixel = longest;
     return {0.5f * (glm::length(right) + glm::length(down)) / gap, most, evenWidth * most,
             (least * least + most * most) / 24, (most * most - least * least) / 24};
@@ -354,7 +351,6 @@ void RowGradient::limitTip(float change) {
     // At a distance of d pixels the mean of u over a pixel is 1 / (24 d) of a pixel more, at the tip 0.38.
     const float distance = 0.38f * change <= rowTolerance ? 0 : std::max(change / (20 * rowTolerance), 0.75f);
     radial_.near = std::min(radial_.near, distance * radial_.pixel);
-    radial_.nearSquared = radial_.near * radial_.near;
 }
 
 // ---- Programs -------------------------------------------------------------------------------------

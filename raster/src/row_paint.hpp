@@ -49,17 +49,6 @@ public:
     bool prepare(const GradientView& gradient, bool isRadial, const Solids& solids,
                  const PixelMiddles& pixels);
 
-    /// Sets the mean over a pixel; false if it is not known here.
-    bool at(Pixel pixel, Float4& color) {
-        if (isRadial_ && radial_.isNear(pixel))
-            return false;
-        const float u = isRadial_ ? radial_.at(pixel) : linear_.at(pixel);
-        const Segment& segment = find(u);
-        if (segment.shape == Shape::Mixed)
-            return false;
-        color = segment.shape == Shape::Turning ? segment.turned(u, widthAt(pixel, u)) : segment.at(u);
-        return true;
-    }
     bool isRadial() const { return isRadial_; }
     /// Four pixels at once.
     using Pixels = std::array<Pixel, 4>;
@@ -71,7 +60,7 @@ public:
     struct Stretch {
         std::size_t count;
         bool isEven;       ///< in which `colors` are the means
-        bool isKnown;      ///< or at() knows them
+        bool isKnown;      ///< or a stop turns the ramp there
         RowColors colors;  ///< from the first pixel on
     };
     Stretch stretchAt(Pixel first, std::size_t maximum) {
@@ -192,8 +181,9 @@ private:
                     colors[k] = stretch.colors.at(float(int(k)));
                 some(i, std::span<const Float4>(colors));
             } else if (stretch.isKnown) {
+                const Segment& segment = find(linear_.at(pixel));
                 for (std::size_t k = 0; k < colors.size(); ++k)
-                    at({pixel.x + int(k), pixel.row}, colors[k]);
+                    colors[k] = segment.turned(linear_.at({pixel.x + int(k), pixel.row}), linear_.width);
                 some(i, std::span<const Float4>(colors));
             } else {
                 others(i, end);
@@ -244,48 +234,13 @@ private:
             return at(from) == at({from.x + int(count) - 1, from.row});
         }
     };
-    /// Along a row, by pixels from one on: b + t changeB + sqrt(s0 + t (s1 + t s2)).
-    struct RadialSteps {
-        float b, changeB, s0, s1, s2;
-        float squared, along;  ///< of where the row begins, from the focus
-        float rightSquared, perSquare;
-
-        Float4 at(Float4 t) const {
-            return b + t * changeB + squareRoot(largerOf(s0 + t * (s1 + t * s2), Float4{}));
-        }
-        /// The square of the distance from the focus, where that is least.
-        float nearest(float length) const {
-            const float t = std::clamp(-along * perSquare, 0.0f, length);
-            return squared + t * (2 * along + t * rightSquared);
-        }
-    };
     /// Circles that lie within each other: u = b + sqrt(b² + c) (gradient.cpp).
     struct Radial {
         glm::dvec2 first, right, down;  ///< of pixels, from the focus
         NestedCircles circles;
-        float near, nearSquared, pixel;
-        float rightSquared, perSquare, changeB;  ///< along a row
-
-        RadialSteps stepsFrom(Pixel from) const {
-            const glm::vec2 d = fromFocus(from);
-            const float squared = glm::dot(d, d), along = glm::dot(d, glm::vec2(right)),
-                        b = circles.b(d.x, d.y);
-            return {b,
-                    changeB,
-                    b * b + (squared - circles.fr * circles.fr) * circles.inverse,
-                    2 * (b * changeB + along * circles.inverse),
-                    changeB * changeB + rightSquared * circles.inverse,
-                    squared,
-                    along,
-                    rightSquared,
-                    perSquare};
-        }
+        float near, pixel;
 
         glm::vec2 fromFocus(Pixel at) const { return first + double(at.x) * right + double(at.row) * down; }
-        bool isNear(Pixel at) const {
-            const glm::vec2 d = fromFocus(at);
-            return glm::dot(d, d) <= nearSquared;
-        }
         float at(Pixel place) const {
             const glm::vec2 d = fromFocus(place);
             const float b = circles.b(d.x, d.y);
@@ -322,6 +277,8 @@ private:
     void makeSegments(std::span<const Stop> stops, Spread spread, const Blur& blur, const Solids& solids);
     static Joint jointOf(const Segment& one, const Segment& next, const Blur& blur);
     void limitTip(float change);
+    [[gnu::noinline]] static float stepsIn(const Segment& segment, std::span<const float> offsets);
+    static float dipOf(const std::array<float, samples>& u);
     /// If it is not empty; and a Mixed one before it, if there is a gap.
     void add(Segment segment, const Solids& solids);
 
@@ -344,15 +301,10 @@ public:
 
     /// Sets the mean over a pixel; false if it is not known here.
     bool at(Pixel pixel, Float4& color) {
-        if (!isReady() || !layers_[0].at(pixel, color))
-            return false;
-        for (std::size_t k = 1; k < size_; ++k) {
-            Float4 above;
-            if (!layers_[k].at(pixel, above))
-                return false;
-            color = over(above, color);
-        }
-        return true;
+        RowGradient::Colors colors;
+        const bool isKnown = (at({pixel, pixel, pixel, pixel}, colors) & 1) != 0;
+        color = colors[0];
+        return isKnown;
     }
     /// Sets the means over four pixels. Returns those of which they are known here, a bit each.
     unsigned at(const RowGradient::Pixels& pixels, RowGradient::Colors& colors) {

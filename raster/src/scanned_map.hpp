@@ -65,8 +65,8 @@ public:
     }
 
     /// Those of the picture that is the map's in the squares for which `isSeen(min, max)` says so of their
-    /// boundaries' box, and transparent elsewhere: calls visit(boundaries) for some after the other, where a
-    /// pixel is so many steps.
+    /// boundaries' box, and transparent elsewhere: calls visit(boundaries) for those of each square and
+    /// for those between squares, where a pixel is so many steps.
     template <class IsSeen, class Visit>
     void forEachOfSeen(double pixel, IsSeen&& isSeen, Visit&& visit) const {
         std::array<Borders, 2> borders;

@@ -152,7 +152,7 @@ int expectRow(RowPaint& rows, int row, int first, int end) {
         row, first, end,
         [&](int from, int to, const RowColors& colors) {
             for (int x = from; x < to; ++x)
-                expectPixel(x, colors.at(float(x - from)), sampled);
+                expectPixel(x, colors.at(float(x - from)), colors.degree == 2 ? sampled : rounding);
         },
         [&](int from, std::span<const Float4> colors) {
             EXPECT_LE(colors.size(), longestRow);
