@@ -20,18 +20,6 @@ constexpr int maxSearchDepth = 24;
 constexpr int maxSearchSteps = 60;
 constexpr double smallestStep = 0x1p-24;
 
-/// The two halves of a Bernstein polynomial's interval.
-template <class T, std::size_t N>
-std::pair<std::array<T, N>, std::array<T, N>> halves(std::array<T, N> b) {
-    std::array<T, N> left{};
-    for (std::size_t n = N; n > 0; --n) {
-        left[N - n] = b[0];
-        for (std::size_t i = 0; i + 1 < n; ++i)
-            b[i] = (b[i] + b[i + 1]) * 0.5;
-    }
-    return {left, b};
-}
-
 /// A piece of a curve: Bernstein coefficients of γ', of γ' × γ'' and of |γ'|².
 struct CurvePart {
     std::array<Point, 3> velocity;

@@ -10,6 +10,7 @@
 
 #include "compiler/lower/even_shares.hpp"
 #include "compiler/stroke/roots.hpp"
+#include "compiler/stroke/stretch.hpp"
 
 namespace vtm::compiler::stroke {
 namespace {
@@ -248,11 +249,69 @@ private:
     std::vector<Point> points_;
 };
 
+// ---- What turns evenly ----------------------------------------------------------------------------------
+
+/// Steps by the same angle are chords enough where the radius of curvature is largest: as in an arc of that.
+int chordCount(double turn, double radius, const ChordTolerance& tolerance) {
+    const double length = radius * turn, sagitta = length * turn / 8;
+    if (tolerance.area == 0)
+        return int(std::clamp(std::ceil(std::sqrt(sagitta / tolerance.distance)), 1.0, maxDensity));
+    const double whole = area_chords::density(1 / (area_chords::perArea * tolerance.area), turn, length);
+    if (whole <= 2 * area_chords::endShare && sagitta <= tolerance.distance)
+        return 1;
+    return area_chords::count(std::min(whole, maxDensity));
+}
+
+/// A curve by a direction that turns by `angle`, in `count` steps.
+struct Turning {
+    Point start, end;
+    Point direction;  ///< where it starts
+    double angle;
+    int count;
+};
+
+/// Goes on from its start; at(direction): a place of the curve.
+template <class At>
+void appendTurning(const Turning& curve, bool byArea, const At& at, Side& side) {
+    const double endShare = byArea ? area_chords::endShare : 1;
+    const double step = curve.angle / (curve.count - 2 + 2 * endShare);
+    const Point turned{std::cos(step), std::sin(step)};
+    const std::size_t before = side.ends.size();
+    Point direction = curve.count > 1 ? rotate(curve.direction, step * endShare) : curve.direction;
+    for (int i = 1; i < curve.count; ++i) {
+        side.addLine(at(direction));
+        direction = direction * turned.x + perp(direction) * turned.y;
+    }
+    side.addLine(curve.end);
+    if (!byArea)
+        return;
+    Point start = curve.start;
+    area_chords::moveOutwards(side.ends.size() - before + 1, [&](std::size_t i) -> Point& {
+        return i == 0 ? start : side.ends[before + i - 1];
+    });
+}
+
 }  // namespace
 
 void appendChords(const Cubic& curve, double t0, double t1, double distance, ChordTolerance tolerance,
                   Side& side) {
     ChordOffset(curve, distance, tolerance, side).run(t0, t1);
+}
+
+void appendChords(const Stretch& stretch, double distance, double radius, ChordTolerance tolerance,
+                  Side& side) {
+    const int count = chordCount(std::abs(stretch.turn()), radius, tolerance);
+    const Turning curve{stretch.offset(0, distance).at, stretch.offset(1, distance).at,
+                        stretch.startTangent(), stretch.turn(), count};
+    appendTurning(
+        curve, tolerance.area > 0, [&](Point along) { return stretch.offsetWhere(along, distance); }, side);
+}
+
+void appendArcChords(Point center, Point from, double angle, ChordTolerance tolerance, Side& side) {
+    const int count = chordCount(std::abs(angle), glm::length(from), tolerance);
+    const Turning curve{center + from, center + rotate(from, angle), from, angle, count};
+    appendTurning(
+        curve, tolerance.area > 0, [&](Point place) { return center + place; }, side);
 }
 
 }  // namespace vtm::compiler::stroke

@@ -63,6 +63,8 @@ scene::Path strokeOutlineOfChords(const scene::Path& path, const scene::StrokeSt
 
 namespace stroke {
 
+class Stretch;
+
 /// Goes on with chords within `tolerance` of the offset that lies at `distance` to the left of a curve
 /// without cusps, over [t0, t1], where the curve is not tighter than that.
 ///
@@ -70,6 +72,12 @@ namespace stroke {
 /// So it strays from the chord by no more than the tangent does over the chord's ends.
 void appendChords(const Cubic& curve, double t0, double t1, double distance, ChordTolerance tolerance,
                   Side& side);
+/// The same of a tight stretch, to whichever side: its offset, whose radius of curvature is no larger than
+/// `radius`, follows the tangent's angle.
+void appendChords(const Stretch& stretch, double distance, double radius, ChordTolerance tolerance,
+                  Side& side);
+/// The same of an arc of a circle, which starts where the side ends, at `center` + `from`.
+void appendArcChords(Point center, Point from, double angle, ChordTolerance tolerance, Side& side);
 
 }  // namespace stroke
 }  // namespace vtm::compiler

@@ -156,6 +156,13 @@ private:
     void fit(const Stretch& stretch, double distance, bool backward, Side& side) const {
         appendFit({stretch, distance, backward}, o_.tolerance, side);
     }
+    /// The offset of a tight stretch, whose radius of curvature is no larger than `radius`.
+    void turning(const Stretch& stretch, double distance, double radius, bool backward, Side& side) const {
+        if (!(o_.chords.distance > 0))
+            return fit(stretch, distance, backward, side);
+        side.lineTo(stretch.offset(0, distance).at, gapShare * o_.tolerance);
+        appendChords(stretch, distance, radius, chordTolerance(), side);
+    }
 
     void gentle(const Stretch& stretch, const Span& span) {
         if (o_.chords.distance > 0) {
@@ -171,16 +178,20 @@ private:
     /// turns back by these shares of the tolerance.
     void chords(const Stretch& stretch, const Span& span, double distance, Side& side) const {
         side.lineTo(stretch.offset(0, distance).at, gapShare * o_.tolerance);
+        appendChords(curve_, span.t0, span.t1, distance, chordTolerance(), side);
+    }
+    ChordTolerance chordTolerance() const {
         const double more = (1 - tightShare - gapShare) * o_.tolerance;
-        appendChords(curve_, span.t0, span.t1, distance, {o_.chords.distance + more, o_.chords.area}, side);
+        return {o_.chords.distance + more, o_.chords.area};
     }
 
     void tight(const Stretch& stretch, const Span& span) {
         const bool left = span.bend == Bend::Left;
         const double inner = left ? o_.radius : -o_.radius;
         Side& innerSide = left ? ribbon_.left : ribbon_.right;
-        fit(stretch, -inner, false, left ? ribbon_.right : ribbon_.left);
         const Evolute evolute(curve_, stretch, inner, o_);
+        turning(stretch, -inner, o_.radius + evolute.largestRadius(), false,
+                left ? ribbon_.right : ribbon_.left);
         const double gap = gapShare * o_.tolerance;
         if (span.isFold) {
             innerSide.lineTo(evolute.tip(), gap);
@@ -214,7 +225,7 @@ private:
     void sweepBeyond(const Stretch& stretch, const Evolute& evolute, Bend bend, double inner) {
         if (beyond_.bend != bend)
             beyond_ = {bend, {evolute.at(0), {}, {}}, {evolute.at(0), {}, {}}};
-        fit(stretch, inner, true, beyond_.offset);
+        turning(stretch, inner, o_.radius, true, beyond_.offset);
         evolute.append(beyond_.evolute);
     }
 

@@ -73,6 +73,8 @@ struct Evolute::Parabola {
         const double length = glm::length(chord), shorter = glm::length(side);
         return length > 0 ? std::min(shorter, std::abs(cross(chord, side)) / length) : shorter;
     }
+    /// Of parallel tangents: where the parabola runs along the normal, the evolute touches it.
+    double distance(const Place& place) const;
 };
 
 Evolute::Evolute(const Cubic& c, const Stretch& stretch, double signedRadius, const OffsetOptions& options)
@@ -82,26 +84,51 @@ Evolute::Evolute(const Cubic& c, const Stretch& stretch, double signedRadius, co
       tolerance_(options.tolerance),
       straight_(options.straight()) {}
 
-Point Evolute::at(double u) const {
-    const double t = stretch_.parameter(u);
-    return stretch_.pointAt(t) + normal(t) * centreDistance(t);
+/// A place of the curve, with the unit normal towards the centre of curvature, and how far that is.
+struct Evolute::Place {
+    double u;
+    Point on, normal;
+    double radius;
+
+    Point centre() const { return on + normal * radius; }
+};
+
+double Evolute::Parabola::distance(const Place& place) const {
+    const double a = cross(control - from, place.normal), b = cross(to - control, place.normal);
+    const double t = a == b ? 0.5 : std::clamp(a / (a - b), 0.0, 1.0), s = 1 - t;
+    const Point on = from * (s * s) + control * (2 * s * t) + to * (t * t);
+    return std::abs(cross(on - place.centre(), place.normal));
 }
+
+Evolute::Place Evolute::place(double u) const {
+    const auto [t, along] = stretch_.place(u);
+    return {u, stretch_.pointAt(t), perp(along) * (radius_ < 0 ? -1.0 : 1.0), radiusAt(t)};
+}
+
+Point Evolute::at(double u) const { return place(u).centre(); }
 
 bool Evolute::isTighterAtEnd() const {
-    return centreDistance(stretch_.parameter(1)) < centreDistance(stretch_.parameter(0));
+    return radiusAt(stretch_.parameter(1)) < radiusAt(stretch_.parameter(0));
 }
 
-double Evolute::depth() const { return std::abs(radius_) - centreDistance(stretch_.parameter(tightest())); }
+double Evolute::depth() const { return std::abs(radius_) - radiusAt(stretch_.parameter(tightest())); }
 
-void Evolute::append(Side& side) const { append(0, 1, maxFitDepth, side); }
+double Evolute::largestRadius() const {
+    return std::max(radiusAt(stretch_.parameter(0)), radiusAt(stretch_.parameter(1)));
+}
 
-void Evolute::append(double u0, double u1, int depth, Side& side) const {
-    const Parabola arc{at(u0), meeting(u0, u1), at(u1)};
+void Evolute::append(Side& side) const { append(place(0), place(1), maxFitDepth, side); }
+
+void Evolute::append(const Place& from, const Place& to, int depth, Side& side) const {
+    const Parabola arc{from.centre(), meeting(from, to), to.centre()};
     if (depth == 0 || arc.height() <= straight_)
         return side.lineTo(arc.to, gapShare * tolerance_);
-    if (error(arc, u0, u1) > tolerance_) {
-        append(u0, (u0 + u1) / 2, depth - 1, side);
-        append((u0 + u1) / 2, u1, depth - 1, side);
+    const auto between = [&](double share) { return place(from.u + (to.u - from.u) * share); };
+    const Place middle = between(0.5);
+    if (arc.distance(middle) > tolerance_ || arc.distance(between(0.25)) > tolerance_ ||
+        arc.distance(between(0.75)) > tolerance_) {
+        append(from, middle, depth - 1, side);
+        append(middle, to, depth - 1, side);
         return;
     }
     const Cubic c = geometry::raised(arc.from, arc.control, arc.to);
@@ -111,34 +138,17 @@ void Evolute::append(double u0, double u1, int depth, Side& side) const {
 /// Of the ends and some places between.
 double Evolute::tightest() const {
     constexpr int places = 4;
-    double best = 0, least = centreDistance(stretch_.parameter(0));
+    double best = 0, least = radiusAt(stretch_.parameter(0));
     for (int i = 1; i <= places; ++i) {
-        const double u = double(i) / places, distance = centreDistance(stretch_.parameter(u));
-        if (distance < least)
-            best = u, least = distance;
+        const double u = double(i) / places, radius = radiusAt(stretch_.parameter(u));
+        if (radius < least)
+            best = u, least = radius;
     }
     return best;
 }
 
-/// Distance of parallel tangents: where the parabola runs along the normal, the evolute touches it.
-double Evolute::error(const Parabola& arc, double u0, double u1) const {
-    double worst = 0;
-    for (const double share : {0.25, 0.5, 0.75}) {
-        const double parameter = stretch_.parameter(u0 + (u1 - u0) * share);
-        const Point n = normal(parameter);
-        const double a = cross(arc.control - arc.from, n), b = cross(arc.to - arc.control, n);
-        const double t = a == b ? 0.5 : std::clamp(a / (a - b), 0.0, 1.0), s = 1 - t;
-        const Point on = arc.from * (s * s) + arc.control * (2 * s * t) + arc.to * (t * t);
-        const Point here = stretch_.pointAt(parameter) + n * centreDistance(parameter);
-        worst = std::max(worst, std::abs(cross(on - here, n)));
-    }
-    return worst;
-}
-
-/// Towards the centre of curvature.
-Point Evolute::normal(double t) const { return perp(stretch_.tangentAt(t)) * (radius_ < 0 ? -1.0 : 1.0); }
-
-double Evolute::centreDistance(double t) const {
+/// Of curvature, at the curve's parameter; no larger than the stroke's.
+double Evolute::radiusAt(double t) const {
     const double r = std::abs(radius_);
     const double q = std::max(0.0, bernstein(curvature_.speedSquared, t)), cube = q * std::sqrt(q);
     const double bend = std::abs(bernstein(curvature_.cross, t));
@@ -146,15 +156,13 @@ double Evolute::centreDistance(double t) const {
 }
 
 /// Where the normals meet, always between curve and offset.
-Point Evolute::meeting(double u0, double u1) const {
-    const double t0 = stretch_.parameter(u0), t1 = stretch_.parameter(u1);
-    const Point n0 = normal(t0), n1 = normal(t1), p0 = stretch_.pointAt(t0);
-    const double sine = cross(n0, n1);
+Point Evolute::meeting(const Place& from, const Place& to) const {
+    const double sine = cross(from.normal, to.normal);
     constexpr double parallel = 1e-9;  // below, rounding moves the crossing by more than the evolute is long
     if (std::abs(sine) < parallel)
-        return (at(u0) + at(u1)) / 2.0;
-    const double s = cross(stretch_.pointAt(t1) - p0, n1) / sine;
-    return p0 + n0 * std::clamp(s, 0.0, std::abs(radius_));
+        return (from.centre() + to.centre()) / 2.0;
+    const double s = cross(to.on - from.on, to.normal) / sine;
+    return from.on + from.normal * std::clamp(s, 0.0, std::abs(radius_));
 }
 
 }  // namespace vtm::compiler::stroke

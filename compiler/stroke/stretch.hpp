@@ -22,22 +22,35 @@ public:
         if (span.bend == Bend::Gentle)
             return;
         start_ = tangentAt(span.t0);
-        turn_ = angleBetween(start_, tangentAt(span.t1));
+        end_ = tangentAt(span.t1);
+        turn_ = angleBetween(start_, end_);
         velocity_ = velocityOver(c, span.t0, span.t1);
     }
 
     double parameter(double u) const {
-        if (u <= 0 || u >= 1)
-            return u <= 0 ? span_.t0 : span_.t1;
-        if (span_.bend == Bend::Gentle)
+        if (span_.bend == Bend::Gentle && u > 0 && u < 1)
             return span_.t0 + (span_.t1 - span_.t0) * u;
-        return whereTangent(rotate(start_, turn_ * u));
+        return place(u).t;
+    }
+    /// A place of a tight one, or an end: the curve's parameter and, of tight ones, its tangent.
+    struct Place {
+        double t;
+        Point along;
+    };
+    Place place(double u) const {
+        if (u <= 0 || u >= 1)
+            return u <= 0 ? Place{span_.t0, start_} : Place{span_.t1, end_};
+        const Point along = rotate(start_, turn_ * u);
+        return {whereTangent(along), along};
     }
     double lengthBound() const {
         const Cubic piece = geometry::part(c_, span_.t0, span_.t1);
         return glm::distance(piece.p0, piece.p1) + glm::distance(piece.p1, piece.p2) +
                glm::distance(piece.p2, piece.p3);
     }
+    /// By how much a tight one turns; negative to the right.
+    double turn() const { return turn_; }
+    Point startTangent() const { return start_; }  ///< of a tight one
     Point point(double u) const { return pointAt(parameter(u)); }
     /// By the curve's parameter.
     Point pointAt(double t) const { return c_.at(t); }
@@ -49,6 +62,10 @@ public:
         const Point along = isInside ? unit(velocity) : tangentAt(t);
         const Point at = isInside ? powers_.at(t) : pointAt(t);
         return {at + perp(along) * distance, along};
+    }
+    /// Of a tight one, where its tangent has this direction, a unit vector between those of its ends.
+    Point offsetWhere(Point direction, double distance) const {
+        return powers_.at(whereTangent(direction)) + perp(direction) * distance;
     }
 
 private:
@@ -67,7 +84,7 @@ private:
     const PowerForm powers_;
     Span span_;
     // Of tight ones.
-    Point start_{0, 0};  ///< tangent
+    Point start_{0, 0}, end_{0, 0};  ///< tangents
     double turn_ = 0;
     std::array<Point, 3> velocity_{};
 };
@@ -108,20 +125,21 @@ public:
     Point tip() const { return at(tightest()); }
     /// How far it comes from the offset.
     double depth() const;
+    /// The largest radius of curvature, where that is monotone or the stretch is a fold.
+    double largestRadius() const;
 
     /// Goes on with it, from its start on, where the side has come to within the tolerance.
     void append(Side& side) const;
 
 private:
     struct Parabola;
+    struct Place;
 
-    void append(double u0, double u1, int depth, Side& side) const;
+    Place place(double u) const;
+    void append(const Place& from, const Place& to, int depth, Side& side) const;
+    Point meeting(const Place& from, const Place& to) const;
     double tightest() const;
-    double error(const Parabola& arc, double u0, double u1) const;
-    /// By the curve's parameter.
-    Point normal(double t) const;
-    double centreDistance(double t) const;
-    Point meeting(double u0, double u1) const;
+    double radiusAt(double t) const;
 
     Curvature curvature_;
     const Stretch& stretch_;

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <vtm/compiler/stroke.hpp>
 #include "compiler/lower/outline.hpp"
 #include "compiler/outline_coverage.hpp"
 #include "compiler/stroke/chord_joins.hpp"
@@ -78,21 +79,24 @@ Outlines outlineOf(const scene::Path& path, ChordTolerance pixels) {
                glm::dvec2(side * steps));
     return outlines;
 }
-/// What a stroke covers of each pixel.
+/// What an outline covers of each pixel.
+std::vector<double> covered(const scene::Path& outline) {
+    std::vector<double> shares(side * side);
+    EXPECT_TRUE(coverOutline(outline, scene::FillRule::NonZero, {1, 0, 0, 1, 0, 0}, side, side,
+                             [&](int y, std::span<const asset::CoverageRun> runs) {
+                                 for (const asset::CoverageRun& run : runs)
+                                     for (int x = run.first; x < run.end; ++x)
+                                         shares[std::size_t(y * side + x)] = double(run.share);
+                             }));
+    return shares;
+}
+/// What a stroke covers.
 std::vector<double> strokeOf(const scene::Path& path, double width, ChordTolerance pixels) {
     scene::StrokeStyle style;
     style.width = width;
     style.join = scene::Join::Round;
     style.cap = scene::Cap::Round;
-    std::vector<double> covered(side * side);
-    const scene::Path outline = strokeOutlineOfChords(path, style, 1.0 / 4096, pixels);
-    EXPECT_TRUE(coverOutline(outline, scene::FillRule::NonZero, {1, 0, 0, 1, 0, 0}, side, side,
-                             [&](int y, std::span<const asset::CoverageRun> runs) {
-                                 for (const asset::CoverageRun& run : runs)
-                                     for (int x = run.first; x < run.end; ++x)
-                                         covered[std::size_t(y * side + x)] = double(run.share);
-                             }));
-    return covered;
+    return covered(strokeOutlineOfChords(path, style, 1.0 / 4096, pixels));
 }
 
 const ChordTolerance byArea{1.0 / 256, area}, byDistance{1.0 / 256}, exact{1.0 / 8192};
@@ -131,6 +135,27 @@ TEST_P(AreaChords, ofStrokesToo) {
         for (std::size_t i = 0; i < truth.size(); ++i)
             EXPECT_LT(std::abs(chords[i] - truth[i]), 6 * area + 4 * slack) << width << " at " << i;
     }
+}
+
+/// Most curves bend more tightly than these strokes are wide: their offsets turn with the tangent, and what
+/// lies beyond evolutes shows at the caps. The same outlines of curves are the truth.
+TEST_P(AreaChords, ofTightStrokesToo) {
+    for (const double width : {2.0, 5.0, 10.0})
+        for (const double size : {1.0, 3.0, 8.0}) {
+            const scene::Path path = curves(size);
+            scene::StrokeStyle style;
+            style.width = width;
+            style.join = GetParam() % 2 == 0 ? scene::Join::Miter : scene::Join::Round;
+            style.cap = scene::Cap::Butt;
+            const std::vector<double> truth = covered(strokeOutline(path, style, 1.0 / 4096));
+            for (const ChordTolerance& tolerance : {byArea, byDistance, exact}) {
+                const std::vector<double> chords =
+                    covered(strokeOutlineOfChords(path, style, 1.0 / 4096, tolerance));
+                for (std::size_t i = 0; i < truth.size(); ++i)
+                    EXPECT_LT(std::abs(chords[i] - truth[i]), 6 * area + 4 * slack)
+                        << width << ' ' << size << " at " << i;
+            }
+        }
 }
 
 /// Out to a tip and back to where it came from, or nearly so: no line between tells where the tip might go.
