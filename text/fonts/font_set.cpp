@@ -249,7 +249,10 @@ private:
         const auto face = entry.ownFace ? entry.ownFace : openFace(entry.file, entry.index, entry.family);
         if (!face)
             return nullptr;
-        return face->font(instanceOf(*face, entry, query));
+        auto font = face->font(instanceOf(*face, entry, query));
+        if (!entry.ownFace)
+            library_->keepOpen(font);
+        return font;
     }
 
     const FontOptions options_;

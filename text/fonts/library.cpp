@@ -228,6 +228,15 @@ std::vector<const FaceEntry*> FontLibrary::findSubstitutes(const FontQuery& quer
     return sorted(pattern.get());
 }
 
+void FontLibrary::keepOpen(std::shared_ptr<const Font> font) const {
+    constexpr std::size_t most = 8;
+    const std::lock_guard lock(openMutex_);
+    std::erase(open_, font);
+    if (open_.size() == most)
+        open_.erase(open_.begin());
+    open_.push_back(std::move(font));
+}
+
 std::vector<const FaceEntry*> FontLibrary::sorted(FcPattern* pattern) const {
     FcResult result = FcResultNoMatch;
     const FcFontSetOwner fonts(FcFontSort(config_.get(), pattern, FcFalse, nullptr, &result));

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "text/font.hpp"
 #include "text/fonts/face_entry.hpp"
 #include "text/fonts/handles.hpp"
 
@@ -49,7 +50,7 @@ private:
 };
 
 /// Shared by all font sets of equal directories. Immutable, but for what it remembers of fontconfig's
-/// answers: rules and sorting take longer than most documents' texts.
+/// answers, since rules and sorting take longer than most documents' texts, and of fonts.
 class FontLibrary {
 public:
     /// The library of these options; made where there is none yet.
@@ -68,6 +69,9 @@ public:
     /// library where it knows no system fonts, by family, file and index.
     std::vector<const FaceEntry*> substitutes(const FontQuery& query) const;
 
+    /// Keeps the last few fonts of its files open, for the next documents.
+    void keepOpen(std::shared_ptr<const Font> font) const;
+
 private:
     void list(const FcFontSet* set);
     std::vector<const FaceEntry*> sorted(FcPattern* pattern) const;
@@ -85,6 +89,8 @@ private:
     std::map<std::pair<std::string, unsigned>, const FaceEntry*> byFile_;
     mutable FaceAnswers<std::string> aliases_;
     mutable FaceAnswers<PatternKey> substitutes_;
+    mutable std::mutex openMutex_;  ///< guards open_
+    mutable std::vector<std::shared_ptr<const Font>> open_;
 };
 
 }  // namespace vtm::text

@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,22 @@ TEST_F(DejaVu, TheSameQueryGivesTheSameFont) {
     EXPECT_EQ(set.primary(family("DejaVu Sans")), set.primary(family("DejaVu Sans")));
     FontSet other(optionsOf(dejavu));
     EXPECT_EQ(set.primary(family("DejaVu Sans")), other.primary(family("DejaVu Sans")));
+}
+TEST(FontLibrary, KeepsTheLastFontsOpen) {
+    const auto opened = [](const FontQuery& query) -> std::weak_ptr<const Font> {
+        FontSet set(optionsOf(dejavu));
+        return set.primary(query);
+    };
+    const std::weak_ptr<const Font> first = opened(family("DejaVu Sans"));
+    EXPECT_FALSE(first.expired());
+    for (const char* name : {"DejaVu Sans Mono", "DejaVu Serif"})
+        for (const double weight : {400, 700})
+            for (const Slant slant : {Slant::Normal, Slant::Oblique}) {
+                FontQuery query = family(name, weight);
+                query.slant = slant;
+                EXPECT_FALSE(opened(query).expired());
+            }
+    EXPECT_TRUE(first.expired()) << "eight others were opened since";
 }
 TEST_F(DejaVu, WithoutTheDefaultFamilyTheFirstByNameStandsIn) {
     EXPECT_EQ(set.primary(family("Absent"))->family().substr(0, 6), "DejaVu");
