@@ -132,8 +132,7 @@ public:
 
     void resize(std::size_t paints, int width) {
         sides_.resize(paints);
-        coverage_.resize(width);
-        quarters_.resize(width);
+        width_ = width;
         rowPaints_.reset(paints);
     }
 
@@ -224,6 +223,7 @@ private:
     /// pixels in the box around its chords are looked at.
     template <class Grid, class Take>
     void forEachRun(const ProgramView& of, std::uint32_t paint, Accumulator<Grid>& coverage, Take&& take) {
+        coverage.resize(width_);
         glm::vec2 low(std::numeric_limits<float>::max()), high(-low);
         for (const ProgramSide& side : sides_[paint]) {
             const Chord& chord = *side.chord;
@@ -520,7 +520,7 @@ private:
         return of.point({cut.x + 0.5, top_ + cut.row + 0.5});
     }
 
-    int top_ = 0, rows_ = 0;
+    int width_ = 0, top_ = 0, rows_ = 0;
     Accumulator<Wholes<Float4>>* sums_ = nullptr;
     std::vector<std::vector<ProgramSide>> sides_;  ///< by paint
     std::vector<std::uint32_t> programs_;          ///< that have sides
