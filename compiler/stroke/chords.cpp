@@ -251,15 +251,18 @@ private:
 
 // ---- What turns evenly ----------------------------------------------------------------------------------
 
+/// Of what turns evenly: curves are better then, of which only what is near the picture is cut.
+constexpr double tooMany = 256;
+
 /// Steps by the same angle are chords enough where the radius of curvature is largest: as in an arc of that.
 int chordCount(double turn, double radius, const ChordTolerance& tolerance) {
     const double length = radius * turn, sagitta = length * turn / 8;
     if (tolerance.area == 0)
-        return int(std::clamp(std::ceil(std::sqrt(sagitta / tolerance.distance)), 1.0, maxDensity));
+        return int(std::max(1.0, std::min(tooMany, std::ceil(std::sqrt(sagitta / tolerance.distance)))));
     const double whole = area_chords::density(1 / (area_chords::perArea * tolerance.area), turn, length);
     if (whole <= 2 * area_chords::endShare && sagitta <= tolerance.distance)
         return 1;
-    return area_chords::count(std::min(whole, maxDensity));
+    return area_chords::count(std::min(tooMany, whole));
 }
 
 /// A curve by a direction that turns by `angle`, in `count` steps.
@@ -298,20 +301,26 @@ void appendChords(const Cubic& curve, double t0, double t1, double distance, Cho
     ChordOffset(curve, distance, tolerance, side).run(t0, t1);
 }
 
-void appendChords(const Stretch& stretch, double distance, double radius, ChordTolerance tolerance,
+bool appendChords(const Stretch& stretch, double distance, double radius, ChordTolerance tolerance,
                   Side& side) {
     const int count = chordCount(std::abs(stretch.turn()), radius, tolerance);
+    if (count >= tooMany)
+        return false;
     const Turning curve{stretch.offset(0, distance).at, stretch.offset(1, distance).at,
                         stretch.startTangent(), stretch.turn(), count};
     appendTurning(
         curve, tolerance.area > 0, [&](Point along) { return stretch.offsetWhere(along, distance); }, side);
+    return true;
 }
 
-void appendArcChords(Point center, Point from, double angle, ChordTolerance tolerance, Side& side) {
+bool appendArcChords(Point center, Point from, double angle, ChordTolerance tolerance, Side& side) {
     const int count = chordCount(std::abs(angle), glm::length(from), tolerance);
+    if (count >= tooMany)
+        return false;
     const Turning curve{center + from, center + rotate(from, angle), from, angle, count};
     appendTurning(
         curve, tolerance.area > 0, [&](Point place) { return center + place; }, side);
+    return true;
 }
 
 }  // namespace vtm::compiler::stroke

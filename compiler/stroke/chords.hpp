@@ -73,11 +73,11 @@ class Stretch;
 void appendChords(const Cubic& curve, double t0, double t1, double distance, ChordTolerance tolerance,
                   Side& side);
 /// The same of a tight stretch, to whichever side: its offset, whose radius of curvature is no larger than
-/// `radius`, follows the tangent's angle.
-void appendChords(const Stretch& stretch, double distance, double radius, ChordTolerance tolerance,
+/// `radius`, follows the tangent's angle. Adds nothing and returns false where that takes hundreds.
+bool appendChords(const Stretch& stretch, double distance, double radius, ChordTolerance tolerance,
                   Side& side);
 /// The same of an arc of a circle, which starts where the side ends, at `center` + `from`.
-void appendArcChords(Point center, Point from, double angle, ChordTolerance tolerance, Side& side);
+bool appendArcChords(Point center, Point from, double angle, ChordTolerance tolerance, Side& side);
 
 }  // namespace stroke
 }  // namespace vtm::compiler

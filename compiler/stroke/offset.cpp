@@ -158,10 +158,9 @@ private:
     }
     /// The offset of a tight stretch, whose radius of curvature is no larger than `radius`.
     void turning(const Stretch& stretch, double distance, double radius, bool backward, Side& side) const {
-        if (!(o_.chords.distance > 0))
-            return fit(stretch, distance, backward, side);
         side.lineTo(stretch.offset(0, distance).at, gapShare * o_.tolerance);
-        appendChords(stretch, distance, radius, chordTolerance(), side);
+        if (!(o_.chords.distance > 0 && appendChords(stretch, distance, radius, chordTolerance(), side)))
+            fit(stretch, distance, backward, side);
     }
 
     void gentle(const Stretch& stretch, const Span& span) {

@@ -360,8 +360,9 @@ private:
                      maximum = tolerance_ * roundShare;
         if (sagitta <= maximum && std::abs(angle) < std::numbers::pi / 2)
             return go(side, center + rotate(from, angle));
-        if (chords_.distance > 0)
-            return appendArcChords(center, from, angle, {chords_.distance + maximum, chords_.area}, side);
+        if (chords_.distance > 0 &&
+            appendArcChords(center, from, angle, {chords_.distance + maximum, chords_.area}, side))
+            return;
         for (const Cubic& c : circleArc(center, from, angle, maximum))
             side.cubicTo(c.p1, c.p2, c.p3);
     }
