@@ -64,6 +64,15 @@ void appendFit(const OffsetCurve& curve, double tolerance, Side& side) {
     appendFit(curve, 0, 1, tolerance, maxFitDepth, side);
 }
 
+/// A place of the curve, with the unit normal towards the centre of curvature, and how far that is.
+struct Evolute::Place {
+    double u;
+    Point on, normal;
+    double radius;
+
+    Point centre() const { return on + normal * radius; }
+};
+
 struct Evolute::Parabola {
     Point from, control, to;
 
@@ -74,7 +83,12 @@ struct Evolute::Parabola {
         return length > 0 ? std::min(shorter, std::abs(cross(chord, side)) / length) : shorter;
     }
     /// Of parallel tangents: where the parabola runs along the normal, the evolute touches it.
-    double distance(const Place& place) const;
+    double distance(const Place& place) const {
+        const double a = cross(control - from, place.normal), b = cross(to - control, place.normal);
+        const double t = a == b ? 0.5 : std::clamp(a / (a - b), 0.0, 1.0), s = 1 - t;
+        const Point on = from * (s * s) + control * (2 * s * t) + to * (t * t);
+        return std::abs(cross(on - place.centre(), place.normal));
+    }
 };
 
 Evolute::Evolute(const Cubic& c, const Stretch& stretch, double signedRadius, const OffsetOptions& options)
@@ -83,22 +97,6 @@ Evolute::Evolute(const Cubic& c, const Stretch& stretch, double signedRadius, co
       radius_(signedRadius),
       tolerance_(options.tolerance),
       straight_(options.straight()) {}
-
-/// A place of the curve, with the unit normal towards the centre of curvature, and how far that is.
-struct Evolute::Place {
-    double u;
-    Point on, normal;
-    double radius;
-
-    Point centre() const { return on + normal * radius; }
-};
-
-double Evolute::Parabola::distance(const Place& place) const {
-    const double a = cross(control - from, place.normal), b = cross(to - control, place.normal);
-    const double t = a == b ? 0.5 : std::clamp(a / (a - b), 0.0, 1.0), s = 1 - t;
-    const Point on = from * (s * s) + control * (2 * s * t) + to * (t * t);
-    return std::abs(cross(on - place.centre(), place.normal));
-}
 
 Evolute::Place Evolute::place(double u) const {
     const auto [t, along] = stretch_.place(u);
