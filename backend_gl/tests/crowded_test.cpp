@@ -59,6 +59,9 @@ Asset fan(int count) {
     return compiler::compile(scene).asset;
 }
 
+/// Of parts of pixels in which paints turn the scanner knows first moments, shaders quarters: either is off
+/// by about a sixteenth of what the quarters differ by. With a material no pixel is drawn finer, so that they
+/// may differ by everything (docs/coverage.md).
 TEST_F(Gl, CrowdedCellsLookLikeOthers) {
     Renderer crowded(withTurns(noTurns));
     for (const Asset& asset : {halfPlane(), threeRegions(), disc(), twoLevels(), everyPaint()})
@@ -66,7 +69,9 @@ TEST_F(Gl, CrowdedCellsLookLikeOthers) {
             for (const double zoom : {0.3, 2.0, 11.0}) {
                 const View view = turnedView(60, 50, {30, 34}, zoom, angle, 0.2, angle > 1);
                 const Texture a = crowded.upload(asset), b = renderer->upload(asset);
-                EXPECT_LE(worst(crowded.render(a, view), renderer->render(b, view)), 2)
+                const bool mayTurnInPixels = !asset.materials.empty() && zoom < 1;
+                EXPECT_LE(worst(crowded.render(a, view), renderer->render(b, view)),
+                          mayTurnInPixels ? 255.0 / 16 : 2)
                     << angle << ' ' << zoom;
             }
 }

@@ -120,7 +120,7 @@ namespace {
 /// What one mask needs and the next uses again.
 struct Scratch {
     Bands bands;
-    Accumulator<Wholes<float>> coverage;
+    Accumulator<float> coverage;
     std::vector<CoverageRun> runs;
     bool isWhole = true;  ///< false while sums may be half done
 };

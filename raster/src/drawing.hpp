@@ -31,7 +31,7 @@ namespace vtm::asset {
 /// What one picture needs and the next uses again.
 struct RowScratch {
     Bands bands;
-    Accumulator<Wholes<Float4>> colors;
+    Accumulator<Float4> colors;
     BandPrograms programs;
     PlacedChordsByMap placed;
 };

@@ -54,7 +54,7 @@ void BandPrograms::addFiner(const ProgramView& of, std::uint32_t paint) {
 
 void FinerProgram::draw(const ProgramView& of, std::uint32_t paint, int top,
                         std::span<const ProgramSide> sides, std::span<BandPixel> pixels,
-                        Accumulator<Wholes<Float4>>& sums) {
+                        Accumulator<Float4>& sums) {
     std::ranges::sort(pixels, {}, &BandPixel::x);
     auto next = pixels.begin();
     for (const BandBox& box : boxesAround(pixels, maxFinerGap(sides.size()))) {

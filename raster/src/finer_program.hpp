@@ -28,7 +28,7 @@ public:
     /// Those of a band's pixels, some more than once, of which rows begin at `top`; their order changes. Adds
     /// the program's colours, times its share of the pixel, to the band's sums.
     void draw(const ProgramView& of, std::uint32_t paint, int top, std::span<const ProgramSide> sides,
-              std::span<BandPixel> pixels, Accumulator<Wholes<Float4>>& sums);
+              std::span<BandPixel> pixels, Accumulator<Float4>& sums);
 
 private:
     void drawBox(const ProgramView& of, std::uint32_t paint, int top, std::span<const ProgramSide> sides,
@@ -42,7 +42,7 @@ private:
     // Of the finer picture of a box.
     Bands bands_;
     BandPrograms programs_;
-    Accumulator<Wholes<Float4>> sums_;
+    Accumulator<Float4> sums_;
 };
 
 }  // namespace vtm::asset

@@ -8,6 +8,7 @@
 #include <glm/vec4.hpp>
 
 #include "raster/src/ramp.hpp"
+#include "raster/src/rough.hpp"
 
 namespace vtm::asset {
 
@@ -32,6 +33,10 @@ constexpr float shapeError = 0.0045f;
 /// A pixel whose sides change u by a vector of length 1 is as if u were even over so much to both sides: 4 /
 /// 8 along them, 4 / 6 √2 across.
 constexpr float evenWidth = 0.486f;
+
+/// Means of layers over a part of a pixel are laid over each other where two that change by c and d differ by
+/// c d of no more: their mean is off by a twelfth of that, as in whole pixels.
+constexpr float maxJointChange = 12 * maxMeanDifference;
 
 /// More stops are left to others: making segments of them costs more than a few rows gain.
 constexpr std::size_t maxRowStops = 128;
@@ -77,26 +82,31 @@ float RowGradient::radialWidth(Pixel pixel, float u) const {
     return evenWidth * std::hypot(glm::dot(slope, vec2(radial_.right)), glm::dot(slope, vec2(radial_.down)));
 }
 
+namespace {
+
+/// What a number of pixels differs by from the first one.
+Float4 stepsFrom(const RowGradient::Pixels& pixels, int RowGradient::Pixel::*number) {
+    const auto step = [&](std::size_t i) { return float(pixels[i].*number - pixels[0].*number); };
+    return Float4{0, step(1), step(2), step(3)};
+}
+
+}  // namespace
+
+Float4 RowGradient::offsetsAt(Pixel first, Float4 right, Float4 down, unsigned& known) const {
+    if (!isRadial_)
+        return linear_.at(first) + right * float(linear_.right) + down * float(linear_.down);
+    const vec2 d = radial_.fromFocus(first), toRight(radial_.right), toDown(radial_.down);
+    const Float4 x = d.x + right * toRight.x + down * toDown.x, y = d.y + right * toRight.y + down * toDown.y;
+    const Float4 squared = x * x + y * y, b = radial_.circles.b(x, y);
+    for (unsigned i = 0; i < 4; ++i)
+        known &= ~(unsigned(squared[i] <= radial_.near * radial_.near) << i);
+    return b + radial_.circles.root(b, squared);
+}
+
 unsigned RowGradient::layOver(const Pixels& pixels, Colors& colors) {
-    const auto difference = [&](int Pixel::*of) {
-        const int first = pixels[0].*of;
-        return Float4{0, float(pixels[1].*of - first), float(pixels[2].*of - first),
-                      float(pixels[3].*of - first)};
-    };
-    const Float4 right = difference(&Pixel::x), down = difference(&Pixel::row);
-    Float4 offsets;
     unsigned known = 15;
-    if (isRadial_) {
-        const vec2 d = radial_.fromFocus(pixels[0]), toRight(radial_.right), toDown(radial_.down);
-        const Float4 x = d.x + right * toRight.x + down * toDown.x,
-                     y = d.y + right * toRight.y + down * toDown.y;
-        const Float4 squared = x * x + y * y, b = radial_.circles.b(x, y);
-        offsets = b + radial_.circles.root(b, squared);
-        for (unsigned i = 0; i < 4; ++i)
-            known &= ~(unsigned(squared[i] <= radial_.near * radial_.near) << i);
-    } else {
-        offsets = linear_.at(pixels[0]) + right * float(linear_.right) + down * float(linear_.down);
-    }
+    const Float4 offsets =
+        offsetsAt(pixels[0], stepsFrom(pixels, &Pixel::x), stepsFrom(pixels, &Pixel::row), known);
     for (unsigned i = 0; i < 4; ++i) {
         const float u = offsets[i];
         const Segment& segment = find(u);
@@ -106,6 +116,27 @@ unsigned RowGradient::layOver(const Pixels& pixels, Colors& colors) {
             colors[i] = over(
                 segment.shape == Shape::Turning ? segment.turned(u, widthAt(pixels[i], u)) : segment.at(u),
                 colors[i]);
+    }
+    return known;
+}
+
+unsigned RowGradient::layOver(const Parts& parts, Colors& colors, Changes& changes) {
+    unsigned known = 15, ignored = 15;
+    const Float4 right = stepsFrom(parts.pixels, &Pixel::x), down = stepsFrom(parts.pixels, &Pixel::row);
+    const Float4 middles = offsetsAt(parts.pixels[0], right, down, known),
+                 offsets = offsetsAt(parts.pixels[0], right + parts.right, down + parts.down, ignored);
+    for (unsigned i = 0; i < 4; ++i) {
+        const Segment& segment = find(middles[i]);
+        if (segment.shape == Shape::Mixed) {
+            known &= ~(1u << i);
+        } else {
+            colors[i] = over(segment.shape == Shape::Turning
+                                 ? segment.turned(offsets[i], widthAt(parts.pixels[i], middles[i]))
+                                 : segment.at(offsets[i]),
+                             colors[i]);
+            changes.joint[i] += segment.perPixel * changes.sum[i];
+            changes.sum[i] += segment.perPixel;
+        }
     }
     return known;
 }
@@ -166,7 +197,7 @@ bool RowGradient::prepare(const GradientView& gradient, bool isRadial, const Sol
     segments_.clear();
     last_ = 0;
     const Gradient& g = gradient.gradient();
-    const Blur blur = isRadial ? prepareRadial(g, pixels) : prepareLinear(g, pixels);
+    const Blur blur = blur_ = isRadial ? prepareRadial(g, pixels) : prepareLinear(g, pixels);
     if (!std::isfinite(blur.reach) || (g.spread != Spread::Pad && 2 * blur.reach * leastPeriod > 1))
         return false;
     const std::vector<Stop> stops = stopsIn(gradient, offsetsIn(pixels));
@@ -227,6 +258,11 @@ void RowGradient::add(Segment segment, const Solids& solids) {
     segment.turn = solids.change(segment.turn);
     segment.turnBend = solids.change(segment.turnBend);
     segment.isClear = segment.shape == Shape::Constant && !(largest(segment.color) > 0);
+    segment.perPixel = blur_.length * (largest(segment.slope) + largest(segment.turn));
+    if (largest(segment.bend) > 0)
+        segment.perPixel += blur_.length * 2 * (segment.high - segment.low) * largest(segment.bend);
+    if (blur_.variance * largest(segment.bend) > rowTolerance)  // parts have less of it than pixels
+        segment.perPixel = unbounded;
     segments_.push_back(segment);
 }
 
@@ -389,6 +425,17 @@ void RowPaint::prepare(const Paints& paints, std::uint32_t paint, const PixelMid
     }
     if (gradient.op == Op::Push || !add())
         size_ = 0;
+}
+
+unsigned RowPaint::at(const RowGradient::Parts& parts, RowGradient::Colors& colors) {
+    unsigned known = isReady() ? 15 : 0;
+    colors = {};
+    RowGradient::Changes changes;
+    for (std::size_t k = 0; k < size_ && known != 0; ++k)
+        known &= layers_[k].layOver(parts, colors, changes);
+    for (unsigned i = 0; i < 4; ++i)
+        known &= ~(unsigned(!(changes.joint[i] <= maxJointChange && changes.sum[i] < unbounded)) << i);
+    return known;
 }
 
 bool RowPaint::addLayer(const GradientView& gradient, bool isRadial, const RowGradient::Solids& solids,

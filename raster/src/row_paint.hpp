@@ -55,6 +55,19 @@ public:
     using Colors = std::array<Float4, 4>;
     /// Lays the means over pixels over others. Returns those of which they are known here, a bit each.
     unsigned layOver(const Pixels& pixels, Colors& colors);
+    /// Of four pixels the parts that are to be drawn.
+    struct Parts {
+        Pixels pixels;
+        Float4 right, down;  ///< their centroids, from the pixels' middles
+    };
+    /// What layers change by over a pixel.
+    struct Changes {
+        Float4 sum{};
+        Float4 joint{};  ///< of two layers each the product, added
+    };
+    /// The same of means over parts, as if these were whole pixels about their centroids. A ramp that turns
+    /// in the pixel by k, in what it changes by over one, is off by k / 32 at most.
+    unsigned layOver(const Parts& parts, Colors& colors, Changes& changes);
 
     /// Of pixels of a row, those from the first on of which a linear gradient knows the same.
     struct Stretch {
@@ -137,6 +150,7 @@ private:
         Shape shape;
         Float4 color, slope, bend, turn, turnBend;
         bool isClear = false;  ///< all of it is transparent
+        float perPixel = 0;    ///< what it changes by over a pixel, at most
 
         Float4 at(float u) const {
             const float x = u - start;
@@ -212,6 +226,9 @@ private:
 
     /// Returns those pixels that are so near the tip that the mean of u over them is another one.
     PixelRange radialOffsets(Pixel first, std::span<float> offsets) const;
+    /// Of places so many pixels from the middle of one. Clears the bits of those so near the tip that the
+    /// mean of u over them is another one.
+    Float4 offsetsAt(Pixel first, Float4 right, Float4 down, unsigned& known) const;
     /// Over how much u is spread to both sides in a pixel, in whose middle it is `u`.
     float widthAt(Pixel pixel, float u) const { return isRadial_ ? radialWidth(pixel, u) : linear_.width; }
     float radialWidth(Pixel pixel, float u) const;
@@ -285,6 +302,7 @@ private:
     std::vector<Segment> segments_;  ///< from -infinity to infinity
     std::size_t last_ = 0;           ///< that was found
     bool isRadial_ = false;
+    Blur blur_{};
     Linear linear_{};
     Radial radial_{};
 };
@@ -314,6 +332,8 @@ public:
             known &= layers_[k].layOver(pixels, colors);
         return known;
     }
+    /// The same of means over parts of four pixels.
+    unsigned at(const RowGradient::Parts& parts, RowGradient::Colors& colors);
     /// Visits pixels of a row from the left: even(first, end, colours), some(first, colours) of no more than
     /// longestRow, or others(first, end) where the mean over a pixel is not known here.
     template <class Even, class Some, class Others>

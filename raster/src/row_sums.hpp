@@ -26,40 +26,9 @@ inline constexpr float minShare = 1e-5f;
 inline bool isNothing(Float4 color) { return largest(color) < minShare; }
 inline bool isNothing(float share) { return std::abs(share) < minShare; }
 
-/// How an amount is added to a pixel: `Value` is a Float4, or the coverage of one paint.
-template <class V>
-struct Wholes {
-    using Value = V;
-    using Amount = V;
-    static constexpr unsigned perSide = 1;
-
-    static void add(Value* row, unsigned, int column, Amount amount) { row[column] += amount; }
-};
-
-/// Coverage by quarters of pixels: left and right of the upper half, then of the lower one.
-struct Quarters {
-    using Value = Float4;
-    using Amount = float;
-    static constexpr unsigned perSide = 2;
-
-    /// `row`: of pixels, `half` of it; what changes in a right quarter changes the left one of the next
-    /// pixel.
-    static void add(Value* row, unsigned half, int column, Amount amount) {
-        static constexpr Float4 here[4]{{1, 1, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 1}, {0, 0, 0, 1}};
-        static constexpr Float4 next[4]{{0, 0, 0, 0}, {1, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 1, 0}};
-        const unsigned part = 2 * half + unsigned(column) % 2;
-        row[column / 2] += amount * here[part];
-        row[column / 2 + 1] += amount * next[part];
-    }
-};
-
-/// The changes of a band, summed on a grid of `perSide` rows and columns a pixel.
-template <class Grid>
+/// The changes of a band: of colours, or of the coverage of one paint.
+template <class Value>
 class Accumulator {
-    using Value = typename Grid::Value;
-    using Amount = typename Grid::Amount;
-    static constexpr unsigned perSide = Grid::perSide;
-
 public:
     /// All is zero between pictures, so that a row as wide as before costs nothing to prepare.
     void resize(int width) {
@@ -71,10 +40,10 @@ public:
 
     /// Adds what changes at a chord on the way along each row from left to right: `change` is the value on
     /// its left, going from a to b with y up, minus that on its right. `top`: the first row's y.
-    void add(const Chord& chord, float top, int rows, Amount change) {
-        glm::vec2 a = float(perSide) * chord.a, b = float(perSide) * chord.b;
-        a.y -= float(perSide) * top;
-        b.y -= float(perSide) * top;
+    void add(const Chord& chord, float top, int rows, Value change) {
+        glm::vec2 a = chord.a, b = chord.b;
+        a.y -= top;
+        b.y -= top;
         // ∫ (1 - clamp(x)) dy along the chord is what the pixel has of its right side.
         if (isInRow(a.y, b.y, rows) && std::max(a.x, b.x) > 0)
             return addInRow(std::size_t(a.y), std::min(a.x, b.x), std::max(a.x, b.x), change * (a.y - b.y));
@@ -82,7 +51,7 @@ public:
             std::swap(a, b);
         else
             change = -change;
-        const float end = std::min(b.y, float(perSide) * float(rows));
+        const float end = std::min(b.y, float(rows));
         float y = std::max(a.y, 0.0f);
         if (!(y < end))
             return;
@@ -107,6 +76,13 @@ public:
         touchFew(&touched_[row * words_], unsigned(x), 1);
         changes[x] += value;
         changes[x + 1] -= value;
+    }
+    /// Adds to a pixel, and to all that are right of it.
+    void addFrom(std::size_t row, int x, Value here, Value beyond) {
+        Value* changes = &changes_[row * stride()];
+        touchFew(&touched_[row * words_], unsigned(x), 1);
+        changes[x] += here;
+        changes[x + 1] += beyond - here;
     }
     /// Adds valueOf(column), asked for in order, to pixels of a row.
     template <class ValueOf>
@@ -201,31 +177,31 @@ private:
     /// Whether two heights lie in one row of the band.
     static bool isInRow(float a, float b, int rows) {
         const int row = truncated(a);
-        return row == truncated(b) && std::min(a, b) >= 0 && row >= 0 && row < int(perSide) * rows;
+        return row == truncated(b) && std::min(a, b) >= 0 && row >= 0 && row < rows;
     }
 
     /// What is left of the picture, from y to end, changes its first column. Not inlined: what is inside
     /// would pay.
-    [[gnu::noinline]] void addLeft(float y, float end, Amount change) {
+    [[gnu::noinline]] void addLeft(float y, float end, Value change) {
         for (auto row = std::size_t(y); y < end; ++row) {
             const float nextY = std::min(float(row + 1), end);
-            touched_[row / perSide * words_] |= 1;
-            Grid::add(&changes_[row / perSide * stride()], unsigned(row % perSide), 0, change * (nextY - y));
+            touched_[row * words_] |= 1;
+            changes_[row * stride()] += change * (nextY - y);
             y = nextY;
         }
     }
 
     /// A straight line from x0 to x1 >= x0; `amount`: the change times the height.
-    void addInRow(std::size_t row, float x0, float x1, Amount amount) {
-        if (x0 >= 0 && x1 <= float(perSide) * float(width_))
+    void addInRow(std::size_t row, float x0, float x1, Value amount) {
+        if (x0 >= 0 && x1 <= float(width_))
             addInside(row, x0, x1, amount);
         else
             addCut(row, x0, x1, amount);
     }
 
     /// What is right of the picture changes nothing.
-    void addCut(std::size_t row, float x0, float x1, Amount amount) {
-        const auto right = float(perSide) * float(width_);
+    void addCut(std::size_t row, float x0, float x1, Value amount) {
+        const auto right = float(width_);
         if (x0 >= right)
             return;
         if (x1 <= 0)
@@ -237,31 +213,29 @@ private:
         addInside(row, from, to, amount * ((to - from) * inverse));
     }
 
-    void addInside(std::size_t row, float x0, float x1, Amount amount) {
+    void addInside(std::size_t row, float x0, float x1, Value amount) {
         const int first = int(x0), last = int(x1);
-        Value* changes = &changes_[row / perSide * stride()];
-        const auto add = [&](int column, Amount change) {
-            Grid::add(changes, unsigned(row % perSide), column, change);
-        };
-        touch(row / perSide, unsigned(first) / perSide, unsigned(last) / perSide + 1);
+        Value* changes = &changes_[row * stride()];
+        touch(row, unsigned(first), unsigned(last) + 1);
         if (first == last) {
-            const Amount later = amount * ((x0 + x1) * 0.5f - float(first));
-            add(first, amount - later);
-            return add(first + 1, later);
+            const Value later = amount * ((x0 + x1) * 0.5f - float(first));
+            changes[first] += amount - later;
+            changes[first + 1] += later;
+            return;
         }
         // covered(i): what column i has of the amount, growing from 0 to 1.
         const float inverse = 1 / (x1 - x0), start = float(first + 1) - x0;
         float before = 0.5f * start * start * inverse;
-        add(first, amount * before);
+        changes[first] += amount * before;
         for (int i = first + 1; i < last; ++i) {
             const float covered = (float(i) - x0 + 0.5f) * inverse;
-            add(i, amount * (covered - before));
+            changes[i] += amount * (covered - before);
             before = covered;
         }
         const float rest = x1 - float(last);
         const float covered = 1 - 0.5f * rest * rest * inverse;
-        add(last, amount * (covered - before));
-        add(last + 1, amount * (1 - covered));
+        changes[last] += amount * (covered - before);
+        changes[last + 1] += amount * (1 - covered);
     }
 
     int width_ = 0;

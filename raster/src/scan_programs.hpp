@@ -1,6 +1,6 @@
 /// \file
-/// What paint programs add to a band of pixels: each by its own coverage, and steep ones, where they have
-/// other shares of a pixel's quarters than of the whole, by those too (docs/coverage.md).
+/// What paint programs add to a band of pixels: each by its own coverage, and steep ones with the centroids
+/// of their parts of pixels (docs/coverage.md).
 #pragma once
 
 #include <algorithm>
@@ -23,6 +23,7 @@
 #include "raster/blend.hpp"
 #include "raster/src/gradient.hpp"
 #include "raster/src/paint.hpp"
+#include "raster/src/part_sums.hpp"
 #include "raster/src/program_pixels.hpp"
 #include "raster/src/rough.hpp"
 #include "raster/src/row_paint.hpp"
@@ -113,7 +114,7 @@ struct ProgramView {
     }
 };
 
-/// What is not made better where quarters differ: a tenth of a step of 8 bits.
+/// What is not made better by a part's centroid: a tenth of a step of 8 bits.
 inline constexpr float minPart = 0.1f / 255;
 
 class FinerProgram;
@@ -167,7 +168,7 @@ public:
     }
 
     /// Adds what programs have to the band's sums, but what they have alone, which pixels() gets.
-    void draw(const ProgramView& of, int top, int rows, Accumulator<Wholes<Float4>>& sums) {
+    void draw(const ProgramView& of, int top, int rows, Accumulator<Float4>& sums) {
         if (programs_.empty())
             return;
         sums_ = &sums;
@@ -195,34 +196,30 @@ private:
     };
     /// A row of so many pays for itself.
     static constexpr int minLong = 10;
-    /// A pixel and what its quarters add to a fourth of the program's share of the whole.
+    /// A pixel of which a steep program has a part.
     struct Cut {
-        int row, x;
-        Float4 more;  ///< zero where no edge cuts it
+        BandPixel pixel;
+        PartOfPixel part;
 
-        bool isCut() const { return largest(more) > 0; }
-        /// Of the first moment of the program's part about the pixel's middle.
-        float squaredMoment() const {
-            const float right = more[1] + more[3] - more[0] - more[2],
-                        down = more[2] + more[3] - more[0] - more[1];
-            return (right * right + down * down) / 16;
+        /// From the pixel's middle.
+        glm::vec2 centroid() const {
+            constexpr float least = 1e-6f;  // smaller shares are rounding
+            return std::abs(part.share) > least ? glm::clamp(part.moment / part.share, -0.5f, 0.5f)
+                                                : glm::vec2(0);
         }
     };
-    /// What the program changes by in a pixel, or some neighbours.
-    struct Near {
+    /// A pixel that may be rough, and what the program changes by in it.
+    struct Doubtful {
+        BandPixel pixel;
         PaintChange change;
-        float minSquaredMoment;
-        bool mayBeRough;  ///< where no edge cuts it
-
-        bool matters(const Cut& cut) const { return mayBeRough || cut.squaredMoment() > minSquaredMoment; }
     };
-    /// So many neighbours, at most, are looked at together; of uncut ones that many more at first.
-    static constexpr int maxNeighbours = 8, maxUncut = 64;
+    /// So many neighbours are looked at together at first.
+    static constexpr int maxNeighbours = 16;
 
     /// Calls take(row, first column, end, what was summed) for what the program has of the band. Only the
     /// pixels in the box around its chords are looked at.
-    template <class Grid, class Take>
-    void forEachRun(const ProgramView& of, std::uint32_t paint, Accumulator<Grid>& coverage, Take&& take) {
+    template <class Coverage, class Take>
+    void forEachRun(const ProgramView& of, std::uint32_t paint, Coverage& coverage, Take&& take) {
         coverage.resize(width_);
         glm::vec2 low(std::numeric_limits<float>::max()), high(-low);
         for (const ProgramSide& side : sides_[paint]) {
@@ -350,27 +347,40 @@ private:
         const float minMoment = minMomentOf(of, change);
         const bool mayBeRough = of.finerLevels > 0 && of.rough.mayBeRough(change);
         runs_.clear();
-        forEachRun(of, paint, quarters_, [&](int row, int first, int end, Float4 q) {
-            const float share = 0.25f * (q[0] + q[1] + q[2] + q[3]);
-            runs_.push_back({row, first, end, share});
-            const Cut cut{row, first, 0.25f * (q - share)};
-            if (cut.squaredMoment() > minMoment * minMoment)
-                addPixels(cut, end);
-            else if (mayBeRough && std::abs(share) > minShare)
+        cuts_.clear();
+        doubtful_.clear();
+        forEachRun(of, paint, partSums_, [&](int row, int first, int end, Float4 sum) {
+            const PartOfPixel part(sum);
+            if (part.squaredMoment() > minMoment * minMoment) {
+                for (int x = first; x < end; ++x)
+                    cuts_.push_back({{row, x}, part});
+                return;
+            }
+            runs_.push_back({row, first, end, part.share});
+            if (mayBeRough && std::abs(part.share) > minShare)
                 addUncut(of, paint, row, first, end);
         });
-        keepSteep(of, paint);
-        addCuts(of, paint);
+        if (of.sums == Sums::Encoded && !cuts_.empty())
+            addKnownCuts(rowPaints_.make(of.paints, paint, of.middles()));
+        rough_.clear();
+        if (!cuts_.empty())
+            findPartColors(of, paint, mayBeRough);
+        if (!doubtful_.empty())
+            findRough(of, paint);
+        std::ranges::sort(rough_);
+        rough_.erase(std::ranges::unique(rough_).begin(), rough_.end());
+        addOtherCuts();
         addOthers(of, paint);
         if (!rough_.empty())
             addFiner(of, paint);
-        rough_.clear();
     }
-    /// The wholes of all but the rough pixels.
+    /// The wholes of runs_, but of rough pixels.
     void addOthers(const ProgramView& of, std::uint32_t paint) {
         auto rough = rough_.begin();
         for (Run run : runs_) {
             for (; rough != rough_.end() && *rough < BandPixel{run.row, run.end}; ++rough) {
+                if (rough->row < run.row || rough->x < run.first)  // one that is cut
+                    continue;
                 if (run.first < rough->x)
                     addWholes(of, paint, {run.row, run.first, rough->x, run.share});
                 run.first = rough->x + 1;
@@ -384,116 +394,113 @@ private:
     void addFiner(const ProgramView& of, std::uint32_t paint);
 
     /// The first moment of the program's part, times what the colour changes by over a pixel, is about what
-    /// the quarters make better.
+    /// the centroid makes better.
     static float minMomentOf(const ProgramView& of, const PaintChange& change) {
         const float overPixel = of.rough.pixel * change.steepness;
         return std::max(of.rough.times * minPart / overPixel, minShare);
     }
 
-    void addPixels(Cut cut, int end) {
-        for (; cut.x < end; ++cut.x)
-            cuts_.push_back(cut);
-    }
-    /// Those that may be rough.
-    void addUncut(const ProgramView& of, std::uint32_t paint, int row, int first, int end) {
-        for (; first < end; first += maxUncut) {
-            const int to = std::min(first + maxUncut, end);
-            if (to - first <= maxNeighbours ||
-                of.rough.mayBeRoughNear(of.changeNear(paint, top_ + row, first, to)))
-                addPixels({row, first, Float4{}}, to);
-        }
-    }
-    Near nearOf(const ProgramView& of, std::uint32_t paint, int row, int first, int end) const {
-        const PaintChange change = of.changeNear(paint, top_ + row, first, end);
-        const float minMoment = minMomentOf(of, change);
-        return {change, minMoment * minMoment, of.finerLevels > 0 && of.rough.mayBeRoughNear(change)};
-    }
-    /// Leaves those of cuts_ in which the paint changes enough to matter. Most neighbours are dropped
-    /// together.
-    void keepSteep(const ProgramView& of, std::uint32_t paint) {
-        nears_.clear();
-        std::size_t kept = 0;
-        for (std::size_t i = 0, end; i < cuts_.size(); i = end) {
-            for (end = i + 1; end < cuts_.size() && cuts_[end].row == cuts_[i].row &&
-                              cuts_[end].x < cuts_[i].x + maxNeighbours;)
-                ++end;
-            const Near all = nearOf(of, paint, cuts_[i].row, cuts_[i].x, cuts_[end - 1].x + 1);
-            for (std::size_t k = i; k < end; ++k) {
-                const Cut cut = cuts_[k];
-                if (!all.matters(cut))
-                    continue;
-                const Near near = end == i + 1 ? all : nearOf(of, paint, cut.row, cut.x, cut.x + 1);
-                if (near.matters(cut)) {
-                    cuts_[kept++] = cut;
-                    nears_.push_back(near);
-                }
+    // ---- Cut pixels -------------------------------------------------------------------------------
+
+    /// Those in which no ramp turns. Leaves the others.
+    void addKnownCuts(RowPaint& rows) {
+        std::size_t left = 0;
+        const std::size_t all = cuts_.size();
+        for (std::size_t first = 0; first < all; first += 4) {
+            const std::size_t count = std::min(all - first, std::size_t{4});
+            RowGradient::Parts parts;
+            for (std::size_t i = 0; i < 4; ++i) {
+                const Cut& cut = cuts_[first + std::min(i, count - 1)];
+                const glm::vec2 centroid = cut.centroid();
+                parts.pixels[i] = {cut.pixel.x, top_ + cut.pixel.row};
+                parts.right[i] = centroid.x;
+                parts.down[i] = centroid.y;
+            }
+            RowGradient::Colors colors;
+            const unsigned known = rows.at(parts, colors);
+            for (std::size_t i = 0; i < count; ++i) {
+                const Cut cut = cuts_[first + i];
+                if ((known >> i & 1) != 0)
+                    addPixel(cut.pixel, cut.part.share * colors[i]);
+                else
+                    cuts_[left++] = cut;
             }
         }
-        cuts_.resize(kept);
+        cuts_.erase(cuts_.begin() + std::ptrdiff_t(left), cuts_.end());
     }
-
-    void addCuts(const ProgramView& of, std::uint32_t paint) {
-        if (cuts_.empty())
-            return;
-        const glm::mat2 quarter(0.5 * of.inverse);
-        const glm::vec2 right = 0.5f * quarter[0], down = 0.5f * quarter[1];
+    /// Those in which the paint turns have colours as if it changed evenly between the middles of their
+    /// quarters: partColors_. Those that are rough become some of rough_, those that may be of doubtful_.
+    void findPartColors(const ProgramView& of, std::uint32_t paint, bool mayBeRough) {
         points_.clear();
-        for (const Cut& cut : cuts_) {
-            const glm::vec2 middle = middleOf(of, cut);
-            for (const glm::vec2 way : {-right - down, right - down, down - right, right + down})
-                points_.push_back(middle + way);
-        }
-        evaluate(of, paint, points_, quarter, colors_);
-        if (of.finerLevels > 0)
-            findRough(of, paint);
-        auto rough = rough_.begin();
+        for (const Cut& cut : cuts_)
+            addQuarters(of, cut.pixel);
+        evaluate(of, paint, points_, glm::mat2(0.5 * of.inverse), colors_);
+        partColors_.clear();
+        const PaintChange& anywhere = of.paints.changes()[paint];
         for (std::size_t i = 0; i < cuts_.size(); ++i) {
-            const BandPixel pixel{cuts_[i].row, cuts_[i].x};
-            if (rough != rough_.end() && *rough == pixel) {
-                ++rough;
+            const auto& [pixel, part] = cuts_[i];
+            const QuarterColors q(&colors_[4 * i], 4);
+            const Float4 right = q[1] + q[3] - q[0] - q[2], down = q[2] + q[3] - q[0] - q[1];  // over a pixel
+            partColors_.push_back(part.share * meanOf(q) + part.moment.x * right + part.moment.y * down);
+            if (!mayBeRough && !(of.finerLevels > 0 && of.rough.isRoughCut(anywhere, q)))
                 continue;
-            }
-            Float4 more{};
-            for (std::size_t k = 0; k < 4; ++k)
-                more += cuts_[i].more[k] * colors_[4 * i + k];
-            addPixel(pixel, more);
+            const PaintChange near = of.changeNear(paint, top_ + pixel.row, pixel.x, pixel.x + 1);
+            if (of.rough.isRoughCut(near, q))
+                rough_.push_back(pixel);
+            else if (of.rough.mayBeRoughNear(near))
+                doubtful_.push_back({pixel, near});
         }
-        cuts_.clear();
     }
-
-    /// Those of cuts_, in their order, become rough_. colors_ are those of their quarters.
-    void findRough(const ProgramView& of, std::uint32_t paint) {
-        asked_.clear();
-        points_.clear();
+    /// But of rough pixels.
+    void addOtherCuts() {
         for (std::size_t i = 0; i < cuts_.size(); ++i)
-            if (cuts_[i].isCut() && of.rough.isRoughCut(nears_[i].change, quartersAt(i))) {
-                addRough(i);
-            } else if (nears_[i].mayBeRough) {
-                asked_.push_back(i);
-                points_.push_back(middleOf(of, cuts_[i]));
-            }
-        if (!asked_.empty())
-            findRoughWholes(of, paint);
-        std::ranges::sort(rough_);
-        rough_.erase(std::ranges::unique(rough_).begin(), rough_.end());
+            if (!std::ranges::binary_search(rough_, cuts_[i].pixel))
+                addPixel(cuts_[i].pixel, partColors_[i]);
+    }
+    /// The middles of a pixel's quarters become points_.
+    void addQuarters(const ProgramView& of, const BandPixel& pixel) {
+        const glm::vec2 middle = middleOf(of, pixel), right = 0.25f * glm::mat2(of.inverse)[0],
+                        down = 0.25f * glm::mat2(of.inverse)[1];
+        for (const glm::vec2 way : {-right - down, right - down, down - right, right + down})
+            points_.push_back(middle + way);
     }
 
-    /// Of asked_, of which points_ are the middles.
-    void findRoughWholes(const ProgramView& of, std::uint32_t paint) {
+    // ---- Rough pixels -----------------------------------------------------------------------------
+
+    /// Of pixels that no edge cuts those that may be rough become some of doubtful_.
+    void addUncut(const ProgramView& of, std::uint32_t paint, int row, int first, int end) {
+        for (; first < end; first += maxNeighbours) {
+            const int to = std::min(first + maxNeighbours, end);
+            if (to - first > 1 && !of.rough.mayBeRoughNear(of.changeNear(paint, top_ + row, first, to)))
+                continue;
+            for (int x = first; x < to; ++x)
+                if (const PaintChange near = of.changeNear(paint, top_ + row, x, x + 1);
+                    of.rough.mayBeRoughNear(near))
+                    doubtful_.push_back({{row, x}, near});
+        }
+    }
+
+    /// Those of doubtful_ that are rough become some of rough_.
+    void findRough(const ProgramView& of, std::uint32_t paint) {
+        points_.clear();
+        for (const Doubtful& doubtful : doubtful_)
+            addQuarters(of, doubtful.pixel);
+        evaluate(of, paint, points_, glm::mat2(0.5 * of.inverse), colors_);
+        points_.clear();
+        for (const Doubtful& doubtful : doubtful_)
+            points_.push_back(middleOf(of, doubtful.pixel));
         evaluate(of, paint, points_, glm::mat2(of.inverse), wholes_);
-        std::size_t jumping = 0;  // of asked_, those that may jump
-        for (std::size_t k = 0; k < asked_.size(); ++k) {
-            const std::size_t i = asked_[k];
-            if (of.rough.isRoughWhole(nears_[i].change, quartersAt(i), wholes_[k])) {
-                addRough(i);
-            } else if (nears_[i].change.mayJump) {
-                asked_[jumping] = i;
-                points_[jumping] = points_[k];
-                wholes_[jumping++] = wholes_[k];
+        asked_.clear();  // those that may jump
+        for (std::size_t i = 0; i < doubtful_.size(); ++i) {
+            if (of.rough.isRoughWhole(doubtful_[i].change, QuarterColors(&colors_[4 * i], 4), wholes_[i])) {
+                rough_.push_back(doubtful_[i].pixel);
+            } else if (doubtful_[i].change.mayJump) {
+                points_[asked_.size()] = points_[i];
+                wholes_[asked_.size()] = wholes_[i];
+                asked_.push_back(i);
             }
         }
-        asked_.resize(jumping);
-        points_.resize(jumping);
+        points_.resize(asked_.size());
         findRoughCorners(of, paint);
     }
 
@@ -509,30 +516,26 @@ private:
             evaluate(of, paint, corners_, glm::mat2(0), cornerColors_);
             for (std::size_t k = 0; k < asked_.size(); ++k)
                 if (of.rough.isRoughCorner(cornerColors_[k], wholes_[k]))
-                    addRough(asked_[k]);
+                    rough_.push_back(doubtful_[asked_[k]].pixel);
         }
     }
-    void addRough(std::size_t cut) { rough_.push_back({cuts_[cut].row, cuts_[cut].x}); }
-
-    /// While colors_ are those of the cuts' quarters.
-    QuarterColors quartersAt(std::size_t cut) const { return QuarterColors(&colors_[4 * cut], 4); }
-    glm::vec2 middleOf(const ProgramView& of, const Cut& cut) const {
-        return of.point({cut.x + 0.5, top_ + cut.row + 0.5});
+    glm::vec2 middleOf(const ProgramView& of, const BandPixel& pixel) const {
+        return of.point({pixel.x + 0.5, top_ + pixel.row + 0.5});
     }
 
     int width_ = 0, top_ = 0, rows_ = 0;
-    Accumulator<Wholes<Float4>>* sums_ = nullptr;
+    Accumulator<Float4>* sums_ = nullptr;
     std::vector<std::vector<ProgramSide>> sides_;  ///< by paint
     std::vector<std::uint32_t> programs_;          ///< that have sides
-    Accumulator<Wholes<float>> coverage_;
-    Accumulator<Quarters> quarters_;
+    Accumulator<float> coverage_;
+    PartSums partSums_;
     std::vector<Run> runs_;
     std::vector<Cut> cuts_;
-    std::vector<Near> nears_;         ///< of cuts_
-    std::vector<std::size_t> asked_;  ///< of cuts_
+    std::vector<Doubtful> doubtful_;
+    std::vector<std::size_t> asked_;  ///< of doubtful_
     std::vector<BandPixel> rough_;    ///< of one program, in order
     std::vector<glm::vec2> points_, corners_;
-    std::vector<Float4> colors_, wholes_, cornerColors_;
+    std::vector<Float4> colors_, partColors_, wholes_, cornerColors_;
     std::vector<Part> parts_;
     bool hasRows_ = false;  ///< of the program that is drawn
     RowPaints rowPaints_;

@@ -178,8 +178,10 @@ TEST(Prefilter, EveryTexelOfEveryLevelIsTheMeanOverIt) {
         }
 }
 
-/// Paints that vary within a texel are looked at on a grid four times finer; in compat mode too.
+/// Paints that vary within a texel are looked at on a grid four times finer; in compat mode too. Engines
+/// differ by up to 1.5 in one of the finer pixels, where an edge cuts a steep paint (Scan.EveryBlendMode).
 TEST(Prefilter, GradientsImagesAndGroupsAreAveraged) {
+    constexpr double cut = 1.5 / 16;
     for (const Asset& plain : {everyPaint(), layers()}) {
         const Asset asset = withPrefilter(plain, {16, 16});
         const image::Raster fine = wholePicture(asset, {64, 64});
@@ -190,7 +192,7 @@ TEST(Prefilter, GradientsImagesAndGroupsAreAveraged) {
                     for (int i = 0; i < 16; ++i)
                         mean += fine.pixel(x * 4 + i % 4, y * 4 + i / 4)[c] / 16;
                     ASSERT_NEAR(asset.prefilter.texels[std::size_t(y * 16 + x)][std::size_t(c)], mean * 255,
-                                texelTolerance);
+                                texelTolerance + cut);
                 }
     }
 }

@@ -15,7 +15,7 @@
 #include <vtm/raster/scan.hpp>
 #include "asset/testing.hpp"
 #include "raster/src/paint.hpp"
-#include "raster/src/row_sums.hpp"
+#include "raster/src/part_sums.hpp"
 #include "raster/testing_views.hpp"
 
 namespace vtm::asset::test {
@@ -312,38 +312,42 @@ TEST(Steepness, LeastIsThatOfAPixelsLongestStep) {
 
 // ---- Parts of pixels ------------------------------------------------------------------------------
 
-/// Triangles that reach beyond the picture, against 64 × 64 points a quarter: off by less than what a row of
+/// Triangles that reach beyond the picture, against 64 × 64 points a pixel: off by less than what a row of
 /// points is for each of three edges.
-TEST(Quarters, AreThoseOfDensePoints) {
+TEST(PartSums, AreThoseOfDensePoints) {
     constexpr int width = 7, height = 5, side = 64;
     std::mt19937 random(23);
     std::uniform_real_distribution<float> unit(0, 1);
-    Accumulator<Quarters> quarters;
-    quarters.resize(width);
-    for (int i = 0; i < 60; ++i) {
+    PartSums sums;
+    sums.resize(width);
+    for (int i = 0; i < 200; ++i) {
         std::array<vec2, 3> p;
+        const float size = i % 2 == 0 ? 1 : 0.1f;  // some within a pixel
+        const vec2 place = vec2(width, height) * vec2(unit(random), unit(random));
         for (vec2& corner : p)
-            corner = vec2(-2, -2) + vec2(width + 4, height + 4) * vec2(unit(random), unit(random));
+            corner = place + size * (vec2(width + 4, height + 4) * (vec2(unit(random), unit(random)) - 0.5f));
         const auto side2 = [](vec2 a, vec2 b, vec2 q) {
             return (b.x - a.x) * (q.y - a.y) - (b.y - a.y) * (q.x - a.x);
         };
         const float sign = side2(p[0], p[1], p[2]) > 0 ? 1.0f : -1.0f;
         for (std::size_t k = 0; k < 3; ++k)
-            quarters.add({p[k], p[(k + 1) % 3], 1, 0}, 0, height, sign);
+            sums.add({p[k], p[(k + 1) % 3], 1, 0}, 0, height, sign);
         for (int y = 0; y < height; ++y)
-            quarters.resolve(std::size_t(y), [&](int first, int end, Float4 shares) {
-                for (int x = first; x < end; ++x)
-                    for (int q = 0; q < 4; ++q) {
-                        int within = 0;
-                        for (int n = 0; n < side * side; ++n) {
-                            const vec2 inQuarter = (vec2(n % side, n / side) + 0.5f) / float(side);
-                            const vec2 point = vec2(x, y) + 0.5f * (vec2(q % 2, q / 2) + inQuarter);
-                            within += sign * side2(p[0], p[1], point) > 0 &&
-                                      sign * side2(p[1], p[2], point) > 0 &&
-                                      sign * side2(p[2], p[0], point) > 0;
-                        }
-                        ASSERT_NEAR(shares[q], float(within) / (side * side), 1.5f / side) << x << ' ' << y;
+            sums.resolve(std::size_t(y), 0, width + 1, [&](int first, int end, Float4 sum) {
+                const PartOfPixel part(sum);
+                for (int x = first; x < end; ++x) {
+                    glm::vec3 expected(0);
+                    for (int n = 0; n < side * side; ++n) {
+                        const vec2 inPixel = (vec2(n % side, n / side) + 0.5f) / float(side);
+                        const vec2 point = vec2(x, y) + inPixel;
+                        if (sign * side2(p[0], p[1], point) > 0 && sign * side2(p[1], p[2], point) > 0 &&
+                            sign * side2(p[2], p[0], point) > 0)
+                            expected += glm::vec3(1, inPixel - 0.5f) / float(side * side);
                     }
+                    ASSERT_NEAR(part.share, expected[0], 1.5f / side) << i << ": " << x << ' ' << y;
+                    ASSERT_NEAR(part.moment.x, expected[1], 0.75f / side) << i << ": " << x << ' ' << y;
+                    ASSERT_NEAR(part.moment.y, expected[2], 0.75f / side) << i << ": " << x << ' ' << y;
+                }
             });
     }
 }
