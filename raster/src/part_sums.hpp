@@ -43,8 +43,8 @@ public:
         else
             change = -change;
         const int row = truncated(a.y), column = truncated(a.x);
-        if (row == truncated(b.y) && column == truncated(b.x) && a.y >= 0 && row < rows &&
-            std::min(a.x, b.x) >= 0 && column < width_) {
+        if (row == truncated(b.y) && column == truncated(b.x) && a.y >= 0 && row >= 0 && row < rows &&
+            std::min(a.x, b.x) >= 0 && column >= 0 && column < width_) {
             const glm::vec2 up(0, float(row) + 0.5f);
             return addInPixel(std::size_t(row), column, a - up, b - up, change);
         }

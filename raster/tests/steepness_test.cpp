@@ -312,6 +312,45 @@ TEST(Steepness, LeastIsThatOfAPixelsLongestStep) {
 
 // ---- Parts of pixels ------------------------------------------------------------------------------
 
+/// Chords of any length, also at the ends of single precision: the shares are those of the coverage.
+TEST(PartSums, SharesAreTheCoverage) {
+    constexpr int width = 70, height = 9;
+    std::mt19937 random(29);
+    std::uniform_real_distribution<float> unit(-1, 1);
+    PartSums sums;
+    Accumulator<float> coverage;
+    sums.resize(width);
+    coverage.resize(width);
+    for (int i = 0; i < 4000; ++i) {
+        const float size =
+            std::exp2(std::floor(i % 100 < 90 ? 4 + 6 * unit(random) : 64 + 62 * unit(random)));
+        const auto place = [&] { return vec2(35, 4) + size * vec2(unit(random), unit(random)); };
+        Chord chord{place(), place(), 1, 0};
+        if (i % 7 == 0)
+            chord.b.x = chord.a.x;
+        if (i % 11 == 0)
+            chord.b.y = chord.a.y;
+        sums.add(chord, 0, height, 1);
+        coverage.add(chord, 0, height, 1);
+        for (int y = 0; y < height; ++y) {
+            std::array<float, width> shares{}, expected{};
+            sums.resolve(std::size_t(y), 0, width + 1, [&](int first, int end, Float4 sum) {
+                for (int x = first; x < end; ++x)
+                    shares[std::size_t(x)] = PartOfPixel(sum).share;
+            });
+            coverage.resolve(std::size_t(y), 0, width + 1, [&](int first, int end, float share) {
+                for (int x = first; x < end; ++x)
+                    expected[std::size_t(x)] = share;
+            });
+            if (size > 1e5f)
+                continue;  // where it crosses a row is not known to a pixel
+            for (std::size_t x = 0; x < width; ++x)
+                ASSERT_NEAR(shares[x], expected[x], 1e-6f * std::max(size, 10.0f))
+                    << i << ": " << x << ' ' << y;
+        }
+    }
+}
+
 /// Triangles that reach beyond the picture, against 64 × 64 points a pixel: off by less than what a row of
 /// points is for each of three edges.
 TEST(PartSums, AreThoseOfDensePoints) {
