@@ -464,9 +464,13 @@ public:
         made_.clear();
         numbers_.resize(std::max(numbers_.size(), paints));
     }
+    bool isMade(std::uint32_t paint) const { return numbers_[paint] != 0; }
+    /// It stays until the next one is made.
     RowPaint& make(const Paints& paints, std::uint32_t paint, const PixelMiddles& pixels) {
         std::uint32_t& number = numbers_[paint];
         if (number == 0) {
+            if (made_.size() == most)
+                reset(0);
             made_.push_back(paint);
             number = std::uint32_t(made_.size());
             if (rows_.size() < made_.size())
@@ -477,6 +481,9 @@ public:
     }
 
 private:
+    /// Crowded pictures have ten thousands of paints, each of some kB here, and few of them in a band.
+    static constexpr std::size_t most = 512;
+
     std::vector<RowPaint> rows_;          ///< the first of which are used
     std::vector<std::uint32_t> numbers_;  ///< by paint: in rows_ and 1
     std::vector<std::uint32_t> made_;     ///< paints

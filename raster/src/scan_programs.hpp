@@ -196,6 +196,8 @@ private:
     };
     /// A row of so many pays for itself.
     static constexpr int minLong = 10;
+    /// So many cut pixels pay for what is prepared for them.
+    static constexpr std::size_t minCuts = 12;
     /// A pixel of which a steep program has a part.
     struct Cut {
         BandPixel pixel;
@@ -360,7 +362,7 @@ private:
             if (mayBeRough && std::abs(part.share) > minShare)
                 addUncut(of, paint, row, first, end);
         });
-        if (of.sums == Sums::Encoded && !cuts_.empty())
+        if (of.sums == Sums::Encoded && (cuts_.size() >= minCuts || rowPaints_.isMade(paint)))
             addKnownCuts(rowPaints_.make(of.paints, paint, of.middles()));
         rough_.clear();
         if (!cuts_.empty())
