@@ -25,17 +25,16 @@ public:
         if (verb == "peak")
             return std::to_string(peakBytes());
         Engine& engine = find(name);
-        if (verb == "load" || verb == "cold") {
-            double width = 0, height = 0;  // the scene has them
-            in >> width >> height;
-        }
+        scene::Scene scene;  // of its size alone, which some engines ask for
+        if (verb == "load" || verb == "cold")
+            in >> scene.width >> scene.height;
         const asset::View view = verb == "load" ? asset::View() : readView(in);
         const std::string path = readPath(in);
         const File file{"", path};
         if (verb == "draw")
             return std::to_string(engine.draw(view));
         if (verb == "cold")
-            return std::to_string(engine.drawCold({file, {}, {}}, view).value());
+            return std::to_string(engine.drawCold({file, std::move(scene), {}}, view).value());
         if (verb == "load")
             load(engine, file);
         else if (verb == "picture")
