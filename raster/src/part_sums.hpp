@@ -49,12 +49,12 @@ public:
             return addInPixel(std::size_t(row), column, a - up, b - up, change);
         }
         const float end = std::min(b.y, float(rows));
-        glm::vec2 from = a;
-        if (from.y < 0)
-            from = {a.x - a.y * ((b.x - a.x) / (b.y - a.y)), 0};
-        if (!(from.y < end))
+        if (!(std::max(a.y, 0.0f) < end))
             return;
         const float slope = (b.x - a.x) / (b.y - a.y);
+        glm::vec2 from = a;
+        if (from.y < 0)
+            from = {a.x - a.y * slope, 0};
         for (auto y = std::size_t(from.y); from.y < end; ++y) {
             glm::vec2 to{b.x, float(y + 1)};
             if (to.y < b.y)

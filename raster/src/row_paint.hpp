@@ -464,7 +464,6 @@ public:
         made_.clear();
         numbers_.resize(std::max(numbers_.size(), paints));
     }
-    bool isMade(std::uint32_t paint) const { return numbers_[paint] != 0; }
     /// It stays until the next one is made.
     RowPaint& make(const Paints& paints, std::uint32_t paint, const PixelMiddles& pixels) {
         std::uint32_t& number = numbers_[paint];

@@ -196,18 +196,18 @@ private:
     };
     /// A row of so many pays for itself.
     static constexpr int minLong = 10;
-    /// So many cut pixels pay for what is prepared for them.
+    /// So many cut pixels of a band pay for what is prepared for them.
     static constexpr std::size_t minCuts = 12;
     /// A pixel of which a steep program has a part.
     struct Cut {
         BandPixel pixel;
-        PartOfPixel part;
+        float share;
+        glm::vec2 moment;
 
         /// From the pixel's middle.
         glm::vec2 centroid() const {
             constexpr float least = 1e-6f;  // smaller shares are rounding
-            return std::abs(part.share) > least ? glm::clamp(part.moment / part.share, -0.5f, 0.5f)
-                                                : glm::vec2(0);
+            return std::abs(share) > least ? glm::clamp(moment / share, -0.5f, 0.5f) : glm::vec2(0);
         }
     };
     /// A pixel that may be rough, and what the program changes by in it.
@@ -266,28 +266,38 @@ private:
         hasRows_ = false;
     }
 
-    /// Leaves the others. Whether a paint's rows are asked depends on the band alone, and so do its bytes.
-    void addKnownParts(RowPaint& rows) {
+    /// Adds those of which colorsOf(four of them, their colours) knows the colours, a bit each, and leaves
+    /// the others. Whether a paint's rows are asked depends on the band alone, and so do its bytes.
+    template <class Item, class ColorsOf>
+    void addKnown(std::vector<Item>& items, ColorsOf&& colorsOf) {
         std::size_t left = 0;
-        const std::size_t all = parts_.size();
+        const std::size_t all = items.size();
         for (std::size_t first = 0; first < all; first += 4) {
             const std::size_t count = std::min(all - first, std::size_t{4});
-            RowGradient::Pixels pixels;
-            for (std::size_t i = 0; i < 4; ++i) {
-                const BandPixel& pixel = parts_[first + std::min(i, count - 1)].pixel;
-                pixels[i] = {pixel.x, top_ + pixel.row};
-            }
+            std::array<Item, 4> four;
+            for (std::size_t i = 0; i < 4; ++i)
+                four[i] = items[first + std::min(i, count - 1)];
             RowGradient::Colors colors;
-            const unsigned known = rows.at(pixels, colors);
-            for (std::size_t i = 0; i < count; ++i) {
-                const Part part = parts_[first + i];
+            const unsigned known = colorsOf(four, colors);
+            for (std::size_t i = 0; i < count; ++i)
                 if ((known >> i & 1) != 0)
-                    addPixel(part.pixel, part.share * colors[i]);
+                    addPixel(four[i].pixel, four[i].share * colors[i]);
                 else
-                    parts_[left++] = part;
-            }
+                    items[left++] = four[i];
         }
-        parts_.resize(left);
+        items.resize(left);
+    }
+    template <class Item>
+    RowGradient::Pixels pixelsOf(const std::array<Item, 4>& four) const {
+        RowGradient::Pixels pixels;
+        for (std::size_t i = 0; i < 4; ++i)
+            pixels[i] = {four[i].pixel.x, top_ + four[i].pixel.row};
+        return pixels;
+    }
+    void addKnownParts(RowPaint& rows) {
+        addKnown(parts_, [&](const std::array<Part, 4>& four, RowGradient::Colors& colors) {
+            return rows.at(pixelsOf(four), colors);
+        });
     }
     void addParts(const ProgramView& of, std::uint32_t paint) {
         points_.clear();
@@ -355,14 +365,14 @@ private:
             const PartOfPixel part(sum);
             if (part.squaredMoment() > minMoment * minMoment) {
                 for (int x = first; x < end; ++x)
-                    cuts_.push_back({{row, x}, part});
+                    cuts_.push_back({{row, x}, part.share, part.moment});
                 return;
             }
             runs_.push_back({row, first, end, part.share});
             if (mayBeRough && std::abs(part.share) > minShare)
                 addUncut(of, paint, row, first, end);
         });
-        if (of.sums == Sums::Encoded && (cuts_.size() >= minCuts || rowPaints_.isMade(paint)))
+        if (of.sums == Sums::Encoded && cuts_.size() >= minCuts)
             addKnownCuts(rowPaints_.make(of.paints, paint, of.middles()));
         rough_.clear();
         if (!cuts_.empty())
@@ -376,7 +386,7 @@ private:
         if (!rough_.empty())
             addFiner(of, paint);
     }
-    /// The wholes of runs_, but of rough pixels.
+    /// Adds the wholes of runs_, but of rough pixels.
     void addOthers(const ProgramView& of, std::uint32_t paint) {
         auto rough = rough_.begin();
         for (Run run : runs_) {
@@ -404,31 +414,17 @@ private:
 
     // ---- Cut pixels -------------------------------------------------------------------------------
 
-    /// Those in which no ramp turns. Leaves the others.
+    /// Those in which no ramp turns.
     void addKnownCuts(RowPaint& rows) {
-        std::size_t left = 0;
-        const std::size_t all = cuts_.size();
-        for (std::size_t first = 0; first < all; first += 4) {
-            const std::size_t count = std::min(all - first, std::size_t{4});
-            RowGradient::Parts parts;
+        addKnown(cuts_, [&](const std::array<Cut, 4>& four, RowGradient::Colors& colors) {
+            RowGradient::Parts parts{pixelsOf(four), {}, {}};
             for (std::size_t i = 0; i < 4; ++i) {
-                const Cut& cut = cuts_[first + std::min(i, count - 1)];
-                const glm::vec2 centroid = cut.centroid();
-                parts.pixels[i] = {cut.pixel.x, top_ + cut.pixel.row};
+                const glm::vec2 centroid = four[i].centroid();
                 parts.right[i] = centroid.x;
                 parts.down[i] = centroid.y;
             }
-            RowGradient::Colors colors;
-            const unsigned known = rows.at(parts, colors);
-            for (std::size_t i = 0; i < count; ++i) {
-                const Cut cut = cuts_[first + i];
-                if ((known >> i & 1) != 0)
-                    addPixel(cut.pixel, cut.part.share * colors[i]);
-                else
-                    cuts_[left++] = cut;
-            }
-        }
-        cuts_.erase(cuts_.begin() + std::ptrdiff_t(left), cuts_.end());
+            return rows.at(parts, colors);
+        });
     }
     /// Those in which the paint turns have colours as if it changed evenly between the middles of their
     /// quarters: partColors_. Those that are rough become some of rough_, those that may be of doubtful_.
@@ -440,10 +436,10 @@ private:
         partColors_.clear();
         const PaintChange& anywhere = of.paints.changes()[paint];
         for (std::size_t i = 0; i < cuts_.size(); ++i) {
-            const auto& [pixel, part] = cuts_[i];
+            const auto& [pixel, share, moment] = cuts_[i];
             const QuarterColors q(&colors_[4 * i], 4);
             const Float4 right = q[1] + q[3] - q[0] - q[2], down = q[2] + q[3] - q[0] - q[1];  // over a pixel
-            partColors_.push_back(part.share * meanOf(q) + part.moment.x * right + part.moment.y * down);
+            partColors_.push_back(share * meanOf(q) + moment.x * right + moment.y * down);
             if (!mayBeRough && !(of.finerLevels > 0 && of.rough.isRoughCut(anywhere, q)))
                 continue;
             const PaintChange near = of.changeNear(paint, top_ + pixel.row, pixel.x, pixel.x + 1);
@@ -453,7 +449,7 @@ private:
                 doubtful_.push_back({pixel, near});
         }
     }
-    /// But of rough pixels.
+    /// Adds partColors_, but of rough pixels.
     void addOtherCuts() {
         for (std::size_t i = 0; i < cuts_.size(); ++i)
             if (!std::ranges::binary_search(rough_, cuts_[i].pixel))
