@@ -23,6 +23,34 @@ bool isSumOfMaps(const AssetView& asset) {
            });
 }
 
+AssetView::AssetView(const Asset& asset)
+    : width(asset.width),
+      height(asset.height),
+      mode(asset.mode),
+      maps(asset.maps),
+      commands(asset.commands),
+      nodes(asset.nodes),
+      leaves(asset.leaves),
+      pieces(asset.pieces),
+      paints(asset.paints),
+      data(asset.data),
+      images(asset.images),
+      materials(asset.materials),
+      instanceTrees(asset.instanceTrees),
+      instances(asset.instances),
+      symbols(asset.symbols),
+      palettes(asset.palettes),
+      filters(asset.filters),
+      filterPrimitives(asset.filterPrimitives),
+      filterWords(asset.filterWords),
+      fallbackLeaves(asset.fallbackLeaves),
+      filterPixels(asset.filterPixels),
+      prefilter{asset.prefilter.size, asset.prefilter.texels},
+      finestPixel(asset.finestPixel),
+      font(asset.font),
+      glyphs(asset.glyphs),
+      glyphParts(asset.glyphParts) {}
+
 std::vector<bool> imagesWithLevels(const AssetView& asset) {
     std::vector<bool> wanted(asset.images.size());
     for (const Paint& paint : asset.paints) {

@@ -482,33 +482,7 @@ struct AssetView {
     std::span<const GlyphPart> glyphParts;
 
     AssetView() = default;
-    AssetView(const Asset& a)  // NOLINT(google-explicit-constructor): converts implicitly
-        : width(a.width),
-          height(a.height),
-          mode(a.mode),
-          maps(a.maps),
-          commands(a.commands),
-          nodes(a.nodes),
-          leaves(a.leaves),
-          pieces(a.pieces),
-          paints(a.paints),
-          data(a.data),
-          images(a.images),
-          materials(a.materials),
-          instanceTrees(a.instanceTrees),
-          instances(a.instances),
-          symbols(a.symbols),
-          palettes(a.palettes),
-          filters(a.filters),
-          filterPrimitives(a.filterPrimitives),
-          filterWords(a.filterWords),
-          fallbackLeaves(a.fallbackLeaves),
-          filterPixels(a.filterPixels),
-          prefilter{a.prefilter.size, a.prefilter.texels},
-          finestPixel(a.finestPixel),
-          font(a.font),
-          glyphs(a.glyphs),
-          glyphParts(a.glyphParts) {}
+    AssetView(const Asset& asset);  // NOLINT(google-explicit-constructor): converts implicitly
 };
 
 /// Returns for each image whether a paint program reads its mip levels (a trilinear or bicubic fill).
