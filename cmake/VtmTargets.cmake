@@ -12,9 +12,11 @@ target_compile_options(vtm_warnings INTERFACE "$<$<CXX_COMPILER_ID:GNU>:-Wno-res
 # In inner loops & and | of bools are meant: nothing branches.
 target_compile_options(vtm_warnings INTERFACE "$<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical>")
 option(VTM_UNITY "Compile a module's files several at a time: a whole build takes less time, one after a change longer" OFF)
-# What one file declares is seen by the files after it.
+# Where files are compiled several at a time, what one declares is seen by those after it.
+add_library(vtm_unity_warnings INTERFACE)
+target_compile_options(vtm_unity_warnings INTERFACE -Wno-shadow "$<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>")
 if(VTM_UNITY)
-    target_compile_options(vtm_warnings INTERFACE -Wno-shadow "$<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>")
+    target_link_libraries(vtm_warnings INTERFACE vtm_unity_warnings)
 endif()
 option(VTM_WERROR "Treat our warnings as errors" OFF)
 if(VTM_WERROR)
@@ -29,6 +31,13 @@ set(vtm_precompiled
     <random> <span> <stdexcept> <string> <string_view> <unordered_map> <utility> <variant> <vector>
     <fmt/format.h>
     <glm/common.hpp> <glm/geometric.hpp> <glm/mat2x2.hpp> <glm/mat3x2.hpp> <glm/matrix.hpp> <glm/vec2.hpp> <glm/vec3.hpp> <glm/vec4.hpp>)
+
+# vtm_unite(target): its files are always compiled several at a time. For what no user's build contains: headers take most
+# of the time. Its warnings are already linked.
+function(vtm_unite target)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON)
+    target_link_libraries(${target} PRIVATE vtm_unity_warnings)
+endfunction()
 
 # vtm_precompile(target kind header...): these headers too. Targets of one kind share what the first of them compiles,
 # so they have the same flags and definitions.

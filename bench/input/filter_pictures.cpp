@@ -29,7 +29,7 @@ constexpr Case cases[]{
      R"(<feTurbulence baseFrequency="0.02" result="n"/><feDisplacementMap in="SourceGraphic" in2="n"
         scale="30" xChannelSelector="R" yChannelSelector="G"/>)"}};
 
-constexpr const char* drawing =
+constexpr const char* filtered =
     R"svg(<g filter="url(#f)"><path d="M 256,20 L 320,180 L 490,190 L 355,300 L 400,470 L 256,370
     L 112,470 L 157,300 L 22,190 L 192,180 Z" fill="#c04020"/><circle cx="256" cy="270" r="90" fill="#2060c0" opacity="0.8"/>
     <path d="M 60,420 C 160,300 360,500 460,60" stroke="#208040" stroke-width="24" fill="none"/></g>)svg";
@@ -42,7 +42,7 @@ std::vector<File> writeFilterPictures(const std::filesystem::path& folder) {
         const std::filesystem::path path = folder / (std::to_string(files.size()) + ".svg");
         std::ofstream(path)
             << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"512\" height=\"512\"><filter id=\"f\">"
-            << one.primitives << "</filter>" << drawing << "</svg>\n";
+            << one.primitives << "</filter>" << filtered << "</svg>\n";
         files.push_back({one.name, path});
     }
     return files;

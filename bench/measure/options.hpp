@@ -24,4 +24,11 @@ struct Options {
     std::string program;              ///< this program's file, for what needs a process of its own
 };
 
+/// CPU milliseconds for one thing that is measured.
+struct Budget {
+    double usual, quick;
+
+    double of(const Options& options) const { return options.quick ? quick : usual; }
+};
+
 }  // namespace vtm::bench

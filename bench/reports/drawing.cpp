@@ -9,10 +9,6 @@
 namespace vtm::bench {
 namespace {
 
-/// Contender::difference of what lacks something or has it elsewhere. Antialiasing or none makes less
-/// than 1.6 on our files, what a peer leaves out 3 and more.
-constexpr double otherPicture = 2.5;
-
 constexpr Kind kinds[] = {{.name = "cold", .moving = false, .cold = true},
                           {.name = "unchanged", .moving = false},
                           {.name = "turning"},

@@ -26,7 +26,6 @@ using scene::Scene;
 constexpr std::size_t edited = 15;       ///< items of each file and kind of edit
 constexpr double smallShare = 1.0 / 32;  ///< of the picture's side: larger items are not small
 constexpr double moveShare = 1.0 / 256;  ///< of the picture's side: how far they are moved
-constexpr double otherPicture = 2.5;     ///< Contender::difference of a peer that draws something else
 
 void collect(scene::Group& group, std::vector<Item*>& into) {
     for (scene::Node& node : group.children) {
@@ -318,7 +317,7 @@ private:
 double bytesOf(const compiler::Result& result) { return double(asset::summarize(result.asset).bytes); }
 
 /// What was measured with a file.
-struct Measured {
+struct EditedFile {
     std::string file;
     std::size_t items = 0, blocks = 0;
     double start = 0, bytes = 0;  ///< of the session, by the compiler's
@@ -367,7 +366,7 @@ std::vector<double> shownByItem(const Costs& costs) {
 }
 
 /// Edits of each kind; the peers take turns with the moves.
-void edit(Editor& editor, Peers& peers, int pictures, Measured& m) {
+void edit(Editor& editor, Peers& peers, int pictures, EditedFile& m) {
     const double by = moveShare * std::max(editor.scene.width, editor.scene.height);
     const auto aside = [by](Item& item) { move(item, item, by, 0); };
     std::vector<double> redraws;
@@ -388,10 +387,10 @@ void edit(Editor& editor, Peers& peers, int pictures, Measured& m) {
         m.peers = peers.ratios(shownByItem(m.moves));
 }
 
-Measured measure(const File& file, Peers& peers, const Options& options, std::vector<std::string>& notes) {
+EditedFile measure(const File& file, Peers& peers, const Options& options, std::vector<std::string>& notes) {
     Editor editor(file, options.side);
     const compiler::Result fresh = compiler::compile(editor.scene);
-    Measured m;
+    EditedFile m;
     m.file = file.name;
     m.blocks = editor.session.lastUpdate().blocksInAll;
     m.start = spentTime([&] { compiler::Session{editor.scene}; });
@@ -402,7 +401,7 @@ Measured measure(const File& file, Peers& peers, const Options& options, std::ve
     return m;
 }
 
-Json rowOf(const Measured& m) {
+Json rowOf(const EditedFile& m) {
     const double compiling = medianOf(m.morphs, &Cost::compiling);
     const auto orNone = [](bool there, double value) { return there ? Json(value) : Json(nullptr); };
     const bool small = !m.smallMoves.empty();
@@ -444,7 +443,7 @@ std::string peerCell(const Json& row, const std::string& name) {
 }
 
 /// Milliseconds of an edit that is shown, the updates' part and the worst.
-std::string shownCell(const Measured& m, const Costs& costs) {
+std::string shownCell(const EditedFile& m, const Costs& costs) {
     if (!m.shown || costs.empty())
         return "-";
     return fmt::format("{:.3g} ({:.2g}), {:.3g}", medianOf(costs, &Cost::shown),
@@ -457,7 +456,7 @@ std::string percentCell(const Costs& costs) {
     return fmt::format("{:.3g}, {:.3g}", medianOf(costs, &Cost::percent), worstOf(costs, &Cost::percent));
 }
 
-Json lineOf(const Measured& m, const Json& row, const std::vector<std::string>& names) {
+Json lineOf(const EditedFile& m, const Json& row, const std::vector<std::string>& names) {
     Json line = {{"file", m.file},
                  {"items", m.items},
                  {"recolour ms", shownCell(m, m.recolours)},
@@ -520,7 +519,7 @@ Report editing(const Options& options) {
     Peers peers(options, report.notes);
     for (const File& file : filesOf(options)) {
         fmt::print(stderr, "{}\n", file.name);
-        const Measured m = measure(file, peers, options, report.notes);
+        const EditedFile m = measure(file, peers, options, report.notes);
         report.rows.push_back(rowOf(m));
         report.summary.push_back(lineOf(m, report.rows.back(), peers.names()));
     }

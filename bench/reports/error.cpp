@@ -67,7 +67,7 @@ void addErrors(Contenders& all, const CompiledFile& picture, int side, Report& r
 }
 
 /// Over the files that an engine draws.
-void addMedians(const Contenders& all, Report& report) {
+void addMedianErrors(const Contenders& all, Report& report) {
     for (const int side : truthSides) {
         Json line = {{"file", "median"}, {"px", side}, {"truth", ""}};
         for (const Contender& one : all) {
@@ -106,7 +106,7 @@ Report error(const Options& options) {
         for (const int side : truthSides)
             addErrors(all, picture, side, report);
     }
-    addMedians(all, report);
+    addMedianErrors(all, report);
     return report;
 }
 

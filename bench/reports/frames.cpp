@@ -57,9 +57,9 @@ private:
 };
 
 /// A framebuffer of 8 bits a channel, bound.
-class Target {
+class BoundFramebuffer {
 public:
-    explicit Target(int side) {
+    explicit BoundFramebuffer(int side) {
         glGenTextures(1, &texture_);
         glBindTexture(GL_TEXTURE_2D, texture_);
         glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA8, side, side);
@@ -67,12 +67,12 @@ public:
         glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
         glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_, 0);
     }
-    ~Target() {
+    ~BoundFramebuffer() {
         glDeleteFramebuffers(1, &framebuffer_);
         glDeleteTextures(1, &texture_);
     }
-    Target(const Target&) = delete;
-    Target& operator=(const Target&) = delete;
+    BoundFramebuffer(const BoundFramebuffer&) = delete;
+    BoundFramebuffer& operator=(const BoundFramebuffer&) = delete;
 
 private:
     GLuint texture_ = 0, framebuffer_ = 0;
@@ -128,7 +128,7 @@ private:
     int count(int frames) const { return quick_ ? frames / 6 : frames; }
 
     void addTurning(const gl::Texture& texture, int side) {
-        const Target target(side);
+        const BoundFramebuffer framebuffer(side);
         Frames frames;
         for (int i = -warmUp; i < count(turningFrames); ++i) {
             if (i == 0)
@@ -140,7 +140,7 @@ private:
 
     /// From a quarter of the raster to sixteen times as large, the first views of their octaves among them.
     void addZoom(const gl::Texture& texture, int side) {
-        const Target target(side);
+        const BoundFramebuffer framebuffer(side);
         Frames frames;
         for (int i = 0; i < warmUp; ++i)
             texture.draw(about(asset_, side, 0.25, 0.1));

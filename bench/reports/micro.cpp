@@ -21,7 +21,7 @@ namespace vtm::bench {
 namespace {
 
 constexpr std::size_t curves = 10'000;
-constexpr int side = 512;  ///< pixels of the views
+constexpr int viewSide = 512;  ///< pixels of the views
 
 /// One scene and its asset, for all.
 struct Subject {
@@ -29,7 +29,7 @@ struct Subject {
     asset::Asset asset = compiler::compile(scene).asset;
 
     /// The whole scene is the unit square.
-    asset::View view = {side, side, {double(side), 0, 0, double(side), 0, 0}};
+    asset::View view = {viewSide, viewSide, {double(viewSide), 0, 0, double(viewSide), 0, 0}};
 };
 using Shared = std::shared_ptr<const Subject>;
 
@@ -101,14 +101,14 @@ void addCoverage(const Shared& subject) {
     add("CPU evaluator", [subject](benchmark::State& state) {
         for (auto _ : state)
             benchmark::DoNotOptimize(asset::evaluate(subject->asset, subject->view));
-        itemsOf(state, "pixel", double(side) * side);
+        itemsOf(state, "pixel", double(viewSide) * viewSide);
     });
     add("scanner", [subject](benchmark::State& state) {
         const asset::Scanner scanner(subject->asset);
-        std::vector<std::uint8_t> bytes(std::size_t(side) * side * 4);
+        std::vector<std::uint8_t> bytes(std::size_t(viewSide) * viewSide * 4);
         for (auto _ : state)
-            scanner.draw(subject->view, {bytes.data(), std::size_t(side) * 4});
-        itemsOf(state, "pixel", double(side) * side);
+            scanner.draw(subject->view, {bytes.data(), std::size_t(viewSide) * 4});
+        itemsOf(state, "pixel", double(viewSide) * viewSide);
     });
     add("scanner of coverage alone", [subject](benchmark::State& state) {
         const asset::CoverageScanner scanner(subject->asset);
@@ -116,7 +116,7 @@ void addCoverage(const Shared& subject) {
             scanner.scan(subject->view, [](int, std::span<const asset::CoverageRun> runs) {
                 benchmark::DoNotOptimize(runs.data());
             });
-        itemsOf(state, "pixel", double(side) * side);
+        itemsOf(state, "pixel", double(viewSide) * viewSide);
     });
 }
 
@@ -131,7 +131,7 @@ Report micro(const Options& options) {
         "and "
         "quartiles of the repetitions. The compiler's stages by its own clock; pixels of a view of {} × {} "
         "that shows all of it.",
-        curves, side, side);
+        curves, viewSide, viewSide);
     const auto subject = std::make_shared<const Subject>();
     addCompiler(subject);
     addCoverage(subject);

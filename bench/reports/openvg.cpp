@@ -25,7 +25,7 @@ using scene::Affine;
 using scene::Path;
 
 constexpr int side = VgCanvas::side;
-constexpr double budget = 4000, quickBudget = 1000;  ///< CPU milliseconds a workload
+constexpr Budget workloadBudget{4000, 1000};
 
 // ---- cairo ----------------------------------------------------------------------------------------
 
@@ -228,8 +228,8 @@ Report openvg(const Options& options) {
     if (!cairoVersion())
         report.notes.push_back("cairo: missing (librsvg2-dev)");
     for (const Workload& workload : workloads(oneFileOf(options), report.notes))
-        addWorkload(workload, options.quick ? quickBudget : budget, report);
-    addPixelRows(options.quick ? quickBudget : budget, report);
+        addWorkload(workload, workloadBudget.of(options), report);
+    addPixelRows(workloadBudget.of(options), report);
     return report;
 }
 

@@ -27,7 +27,7 @@ namespace {
 using asset::TextPage;
 using image::Raster;
 
-constexpr double budget = 4000, quickBudget = 400;               ///< CPU milliseconds a view and a pair
+constexpr Budget pageBudget{4000, 400};                          ///< of a view and a pair
 constexpr int maxPixels = 1024, errorPixels = 192, samples = 6;  ///< the truth takes samples² times as many
 
 constexpr const char* fontFolder = "/usr/share/fonts/truetype/dejavu/";
@@ -176,7 +176,7 @@ Report pages(const Options& options) {
             int a = 0, b = 0;
             const Paired time = pairwise([&] { bitmap.drawOnly(sampling.toPage(side, a++), side); },
                                          [&] { way->drawOnly(sampling.toPage(side, b++), side); },
-                                         options.quick ? quickBudget : budget, 41);
+                                         pageBudget.of(options), 41);
             report.rows.push_back(
                 {{"view", sampling.name},
                  {"as", way->name},

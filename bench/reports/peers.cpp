@@ -10,8 +10,8 @@
 namespace vtm::bench {
 namespace {
 
-constexpr int width = 1024;                          ///< pixels
-constexpr double budget = 4000, quickBudget = 1000;  ///< CPU milliseconds a file
+constexpr int width = 1024;  ///< pixels
+constexpr Budget fileBudget{4000, 1000};
 constexpr int maxPairs = 41;
 
 /// The whole picture, `width` pixels wide.
@@ -84,7 +84,7 @@ Report peers(const Options& options) {
         "median and the quartiles of the ratios pair by pair.";
     for (const File& file : filesOf(options))
         try {
-            peer ? addCompared(file, options.quick ? quickBudget : budget, report) : addAlone(file, report);
+            peer ? addCompared(file, fileBudget.of(options), report) : addAlone(file, report);
         } catch (const RsvgError& error) {
             report.notes.push_back(file.name + ": " + error.what() + ".");
         }

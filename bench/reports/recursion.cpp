@@ -15,7 +15,7 @@
 namespace vtm::bench {
 namespace {
 
-constexpr double budget = 1500, quickBudget = 300;  ///< CPU milliseconds a picture
+constexpr Budget pictureBudget{1500, 300};
 
 double nodesBelow(const asset::Asset& asset, asset::Entry entry) {
     if (entry.kind() != asset::Entry::Kind::Node)
@@ -73,9 +73,9 @@ void addPicture(const std::string& name, const scene::Scene& scene, const Option
     const asset::Asset tree = compiler::compile(scene, {.instances = false}).asset;
     const asset::Scanner scanner(both), flatScanner(tree);
     int a = 0, b = 0;
-    const Paired time = pairwise([&] { flatScanner.draw(viewOf(tree, options.side, a++)); },
-                                 [&] { scanner.draw(viewOf(both, options.side, b++)); },
-                                 options.quick ? quickBudget : budget, 21);
+    const Paired time =
+        pairwise([&] { flatScanner.draw(viewOf(tree, options.side, a++)); },
+                 [&] { scanner.draw(viewOf(both, options.side, b++)); }, pictureBudget.of(options), 21);
     const double grid = gridBytes(tree);
     report.rows.push_back({{"file", name},
                            {"flat grid, bytes", std::size_t(grid)},

@@ -25,8 +25,8 @@
 namespace vtm::bench {
 namespace {
 
-constexpr double budget = 600, quickBudget = 400;  ///< CPU milliseconds a view and a pair
-constexpr int maxPixels = 512;                     ///< along a side: a software driver takes seconds for more
+constexpr Budget viewBudget{600, 400};  ///< of a view and a pair
+constexpr int maxPixels = 512;          ///< along a side: a software driver takes seconds for more
 /// The truth takes samples² times as many. With 8 × 8, those of a page of text at the horizon take more turns
 /// than a pixel may, so the page's mean stands for them.
 constexpr int errorPixels = 128, samples = 16;
@@ -84,22 +84,21 @@ public:
     }
 
 private:
-    double budgetOf() const { return options_.quick ? quickBudget : budget; }
+    double budget() const { return viewBudget.of(options_); }
 
     void addPicture() {
         const gl::Texture uploaded = renderer_.upload(asset_);
         int a = 0, b = 0;
         const Paired time =
             pairwise([&] { vtm_.drawOnly(textureViews[0].toTexture(side_, a++), side_); },
-                     [&] { renderer_.draw(uploaded, turned(asset_, side_, b++)); }, budgetOf(), 41);
+                     [&] { renderer_.draw(uploaded, turned(asset_, side_, b++)); }, budget(), 41);
         addRow(textureViews[0].name, "picture", time, "-", "-");
     }
 
     void addWay(const TextureView& view, TextureWay& way, const image::Raster& truth) {
         int a = 0, b = 0;
-        const Paired time =
-            pairwise([&] { vtm_.drawOnly(view.toTexture(side_, a++), side_); },
-                     [&] { way.drawOnly(view.toTexture(side_, b++), side_); }, budgetOf(), 41);
+        const Paired time = pairwise([&] { vtm_.drawOnly(view.toTexture(side_, a++), side_); },
+                                     [&] { way.drawOnly(view.toTexture(side_, b++), side_); }, budget(), 41);
         const int few = std::min(side_, errorPixels);
         const compare::Difference error = compare::compare(way.draw(view.toTexture(few, 0), few), truth);
         addRow(view.name, way.name, time, fmt::format("{:.2g}, {:.3g}", error.rms, error.max),

@@ -129,10 +129,9 @@ class Check:
 
     def configure_part(self, way):
         """VTM as a part of the consumer's build, which must compile nothing but the library. With the flags of the
-        finished build and its launcher a compiler cache knows the objects, unless that build compiled several files as
-        one; then nothing is optimised, which takes half the time."""
-        is_known = self.cached("CMAKE_CXX_COMPILER_LAUNCHER") and self.cached("VTM_UNITY") in ("", "OFF")
-        kind = self.cached("CMAKE_BUILD_TYPE") if is_known else "Debug"
+        finished build and its launcher a compiler cache knows the objects; without one nothing is optimised, which
+        takes half the time."""
+        kind = self.cached("CMAKE_BUILD_TYPE") if self.cached("CMAKE_CXX_COMPILER_LAUNCHER") else "Debug"
         build = self.configure(way, f"-DVTM_FROM={way}", f"-DVTM_SOURCE={self.source}", f"-DCMAKE_BUILD_TYPE={kind}",
                                *(f"-D{name}={self.cached(name)}" for name in
                                  ("CMAKE_CXX_FLAGS", "CMAKE_CXX_FLAGS_RELWITHDEBINFO",

@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 #include <fmt/format.h>
 
+#include <vtm/scene/path.hpp>
 #include <vtm/svg/load.hpp>
 #include "conformance/runner/kinds/kinds.hpp"
 #include "conformance/runner/kinds/scene_subject.hpp"
@@ -44,9 +45,8 @@ std::string repeat(unsigned n, Element&& element) {
     return content;
 }
 
-struct Point {
-    double x, y;
-};
+using scene::Point;
+
 Point onCircle(double turns, double radius) {
     return {middle + radius * std::cos(2 * std::numbers::pi * turns),
             middle + radius * std::sin(2 * std::numbers::pi * turns)};
@@ -54,9 +54,9 @@ Point onCircle(double turns, double radius) {
 std::string text(Point p) { return fmt::format("{:.5f},{:.5f} ", p.x, p.y); }
 
 /// Uniform in [0, 1), the same on every machine.
-class Random {
+class UnitRandom {
 public:
-    explicit Random(std::uint64_t seed) : engine_(seed) {}
+    explicit UnitRandom(std::uint64_t seed) : engine_(seed) {}
     double operator()() { return std::ldexp(double(engine_() >> 11), -53); }
     Point point() {
         const double x = (*this)();
@@ -141,7 +141,7 @@ std::string grid() {
     }));
 }
 std::string mesh() {
-    Random random(7);
+    UnitRandom random(7);
     const unsigned n = 60;
     std::vector<Point> points;
     for (unsigned i = 0; i < (n + 1) * (n + 1); ++i) {
@@ -193,7 +193,7 @@ std::string ringsDashed() {
 // ---- Clutter ------------------------------------------------------------------------------------------
 
 std::string glyphs() {
-    Random random(11);
+    UnitRandom random(11);
     return document(repeat(1500, [&](unsigned i) {
         const Point p = random.point();
         return fmt::format(
@@ -203,7 +203,7 @@ std::string glyphs() {
     }));
 }
 std::string glyphsInACorner() {
-    Random random(12);
+    UnitRandom random(12);
     return document("<g transform=\"translate(20 20) scale(.04)\">" +
                     repeat(1200,
                            [&](unsigned i) {
@@ -216,13 +216,13 @@ std::string glyphsInACorner() {
                     "</g>");
 }
 std::string scribble() {
-    Random random(13);
+    UnitRandom random(13);
     const std::string d =
         repeat(200, [&](unsigned i) { return (i == 0 ? "M" : "L") + text(random.point()); });
     return document("<path d=\"" + d + "Z\" fill=\"#0a5\" fill-rule=\"evenodd\"/>");
 }
 std::string slivers() {
-    Random random(14);
+    UnitRandom random(14);
     return document(repeat(700, [&](unsigned i) {
         const double y = random() * 60, lean = random() * 0.8;
         return fmt::format("<path d=\"M1 {:.5f}L63 {:.5f}L63 {:.5f}Z\" fill=\"{}\"/>", y, y + lean,
@@ -230,7 +230,7 @@ std::string slivers() {
     }));
 }
 std::string discsTranslucent() {
-    Random random(15);
+    UnitRandom random(15);
     return document(repeat(24, [&](unsigned i) {
         const Point p = random.point();
         return fmt::format("<circle cx=\"{:.3f}\" cy=\"{:.3f}\" r=\"{:.3f}\" fill=\"{}\" opacity=\".3\"/>",
@@ -247,7 +247,7 @@ std::string stops(unsigned n) {
 }
 /// Slow along the picture, so that a pixel sees little of it.
 std::string discsWithGradients() {
-    Random random(16);
+    UnitRandom random(16);
     return document(repeat(18, [&](unsigned i) {
         const Point p = random.point();
         return fmt::format(
