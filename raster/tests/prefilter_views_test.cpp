@@ -10,8 +10,8 @@
 
 #include <vtm/compiler/compile.hpp>
 #include <vtm/image/codec.hpp>
-#include <vtm/raster/evaluate.hpp>
 #include <vtm/raster/prefilter.hpp>
+#include <vtm/raster/scan.hpp>
 #include <vtm/svg/load.hpp>
 #include "raster/testing_prefilter.hpp"
 
@@ -47,12 +47,11 @@ struct Minified {
 
 constexpr int views = 4;
 
-/// The mean over each pixel, paints that vary included: the evaluator, which looks at a paint once a pixel,
-/// on a grid four times finer.
+/// The mean over each pixel, paints that vary included: of the pixels of a picture four times as large.
 image::Raster meanOf(const Asset& asset, const View& view) {
     constexpr int finer = 4;
     const image::Raster fine =
-        evaluate(asset, {view.width * finer, view.height * finer, view.toPixels * double(finer)});
+        Scanner(asset).draw({view.width * finer, view.height * finer, view.toPixels * double(finer)});
     image::Raster mean(view.width, view.height);
     for (int y = 0; y < fine.height; ++y)
         for (int x = 0; x < fine.width; ++x)
