@@ -110,6 +110,8 @@ Asset blendAsset(Blend mode);
 /// `length` units of the picture; and what that is by 32 × 32 points a pixel, where the map is.
 Asset steepHalves(double length);
 image::Raster steepHalvesByPoints(double length, int width, int height, const glm::dmat3x2& toPixels);
+/// The same edge; its gradients do not repeat, and are of stripes `width` units wide.
+Asset stripedHalves(double width);
 
 /// Maps in maps: two of map 1, which has one of map 2, a disc. In the first it is green, in the second blue.
 Asset placedMaps();

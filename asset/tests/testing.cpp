@@ -170,6 +170,26 @@ Asset steepHalves(double length) {
     return asset;
 }
 
+Asset stripedHalves(double width) {
+    Asset asset = oneLeaf({5, 6, 6, 5}, {line(steepBottom, steepTop, 5, 6)});
+    std::vector<GradientStop> stops;
+    constexpr int last = 64;
+    for (int i = 0; i <= last; ++i) {
+        const glm::vec4 c = i % 2 == 0 ? glm::dvec4(0, 0, 0, 1) : steepLeft;
+        stops.push_back(stop(float(i) / last, c.r, c.g, c.b, c.a));
+    }
+    Gradient gradient;
+    gradient.stopCount = last + 1;
+    const auto scale = float(1 / (width * last));
+    gradient.matrix = {scale * float(steepWay.x), 0, scale * float(steepWay.y), 0, 0, 0};
+    const std::uint32_t left = addGradient(asset.data, gradient, stops);
+    gradient.matrix = {scale, 0, 0, scale, -scale * float(steepMiddle.x), -scale * float(steepMiddle.y)};
+    const std::uint32_t right = addGradient(asset.data, gradient, stops);
+    addProgram(asset, {layer(Op::Linear, left)});
+    addProgram(asset, {layer(Op::Radial, right)});
+    return asset;
+}
+
 image::Raster steepHalvesByPoints(double length, int width, int height, const glm::dmat3x2& toPixels) {
     constexpr int side = 32;
     const glm::dmat2 inverse = glm::inverse(glm::dmat2(toPixels[0], toPixels[1]));

@@ -261,6 +261,22 @@ TEST(Scan, OneThreadAndManyGiveTheSameBytes) {
     }
 }
 
+/// A band shows the same whether its task draws it alone or after all above it, for which rows of gradients
+/// were prepared: where the map ends within a band, fewer pixels are cut than ask for rows.
+TEST(Scan, BandsDoNotDependOnThoseBefore) {
+    constexpr double zoom = 8;  // the map has 512 pixels a side
+    const Scanner scanner(stripedHalves(12 / zoom));
+    for (int top = 0; top < 16; ++top) {
+        const View view{520, 528, {zoom, 0, 0, zoom, 4, top}};
+        const auto drawn = [&](int threads) {
+            image::Raster raster;
+            tbb::task_arena(threads).execute([&] { raster = scanner.draw(view); });
+            return raster.rgba;
+        };
+        EXPECT_TRUE(drawn(1) == drawn(16)) << top;
+    }
+}
+
 TEST(Scan, NothingToDraw) {
     Asset empty = emptyAsset();
     empty.commands.clear();
