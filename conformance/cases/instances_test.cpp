@@ -329,7 +329,7 @@ bool meetsPrefilter(const asset::Asset& asset, const asset::View& view) {
 unsigned scenes() {
     if (const char* text = std::getenv("VTM_INSTANCE_SCENES"))
         return unsigned(std::strtoul(text, nullptr, 10));
-    return std::getenv("VTM_TEST_ALL") ? 200 : 64;
+    return std::getenv("VTM_TEST_ALL") ? 200 : 128;
 }
 
 /// Compiling the texture's shaders takes a while.
