@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
@@ -14,8 +15,28 @@
 namespace vtm::reference {
 namespace {
 
-/// Pixels round the picture in which a filter is computed. More may lie in its region; cases keep within.
+/// Pixels round the picture in which a filter is computed at most. More may lie in its region; cases keep
+/// within.
 constexpr double farthest = 700;
+
+/// How far from a pixel lies what a primitive reads for it, in user units.
+struct Reach {
+    static constexpr double deviations = 3;  ///< three boxes reach 2.82 (Filter Effects 1, section 9.15)
+
+    glm::dvec2 operator()(const scene::GaussianBlurFilter& f) const {
+        return deviations * glm::dvec2(f.deviationX, f.deviationY);
+    }
+    glm::dvec2 operator()(const scene::DropShadowFilter& f) const {
+        return glm::abs(glm::dvec2(f.dx, f.dy)) + deviations * glm::dvec2(f.deviationX, f.deviationY);
+    }
+    glm::dvec2 operator()(const scene::ColorMatrixFilter&) const { return glm::dvec2(0); }
+    glm::dvec2 operator()(const scene::ComponentTransferFilter&) const { return glm::dvec2(0); }
+    /// Of the others it is not asked: they have regions.
+    template <class Operation>
+    glm::dvec2 operator()(const Operation&) const {
+        return glm::dvec2(HUGE_VAL);
+    }
+};
 
 /// The raster of a filter: axes of its user space, as fine as the view.
 struct Raster {
@@ -96,9 +117,18 @@ private:
             min = glm::min(min, back * p);
             max = glm::max(max, back * p);
         }
-        min = glm::max(glm::floor(min - farthest), glm::floor(region_.min + 1e-6));
-        max = glm::min(glm::ceil(max + farthest), glm::ceil(region_.max - 1e-6));
+        const glm::dvec2 far = reach();
+        min = glm::max(glm::floor(min - far), glm::floor(region_.min + 1e-6));
+        max = glm::min(glm::ceil(max + far), glm::ceil(region_.max - 1e-6));
         return {int(min.x), int(min.y), std::max(0, int(max.x - min.x)), std::max(0, int(max.y - min.y))};
+    }
+
+    /// How far from the picture lies what is seen in it.
+    glm::dvec2 reach() const {
+        glm::dvec2 sum(2);  // roundings of boxes and offsets to whole pixels
+        for (const scene::FilterPrimitive& primitive : filter_.primitives)
+            sum += raster_.frame.scale * std::visit(Reach(), primitive.operation) + 1.0;
+        return glm::min(sum, glm::dvec2(farthest));
     }
 
     static void cut(Pixels& pixels, const Rectangle& region) {
