@@ -76,13 +76,13 @@ cairo_matrix_t turned(int i) {
     return matrix;
 }
 
-struct Canvas {
+struct CairoWork {
     std::vector<std::uint32_t> moved = premultipliedPixels(movedSide),
                                copied = premultipliedPixels(copiedSide);
     Surface target{workSide}, image{moved, movedSide}, memory{copied, copiedSide}, large{copiedSide},
         drawn{workSide};
 
-    Canvas() {
+    CairoWork() {
         // Of an empty surface cairo would copy nothing.
         cairo_set_source_rgb(drawn.c, 0.5, 0.6, 0.7);
         cairo_paint(drawn.c);
@@ -100,7 +100,7 @@ struct Canvas {
 }  // namespace
 
 std::vector<PixelWork> cairoPixelWork() {
-    const auto canvas = std::make_shared<Canvas>();
+    const auto canvas = std::make_shared<CairoWork>();
     cairo_t* const c = canvas->target.c;
     return {
         {"image moved by whole pixels",

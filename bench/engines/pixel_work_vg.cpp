@@ -66,7 +66,7 @@ VGFont sheetFont() {
     return font;
 }
 
-struct Canvas : VgCanvas {
+struct VgWork : VgCanvas {
     std::vector<std::uint32_t> pixels = premultipliedPixels(copiedSide);
     VGImage moved = imageOf(premultipliedPixels(movedSide), movedSide), large = imageOf(pixels, copiedSide),
             other = imageOf(pixels, copiedSide), straight = imageOf(pixels, copiedSide, VG_sRGBA_8888);
@@ -76,7 +76,7 @@ struct Canvas : VgCanvas {
             translucent = vgCreatePaint(), ink = vgCreatePaint();
     VGFont font = sheetFont();
 
-    explicit Canvas(VtmCompositor compositor) : VgCanvas(compositor, workSide) {
+    explicit VgWork(VtmCompositor compositor) : VgCanvas(compositor, workSide) {
         vgSetColor(translucent, 0xe6661a4d);
         vgSeti(VG_FILTER_FORMAT_PREMULTIPLIED, VG_TRUE);
     }
@@ -135,7 +135,7 @@ std::vector<std::uint32_t> premultipliedPixels(int side) {
 }
 
 std::vector<PixelWork> vgPixelWork(VtmCompositor compositor) {
-    const auto canvas = std::make_shared<Canvas>(compositor);
+    const auto canvas = std::make_shared<VgWork>(compositor);
     return {
         {"image moved by whole pixels",
          [=](int i) { canvas->drawImage(1, 0, VGfloat(i * 37 % 500), VGfloat(i * 91 % 500)); }},
