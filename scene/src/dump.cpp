@@ -66,7 +66,7 @@ std::string text(const StrokeStyle& s) {
     if (!s.dashes.empty()) {
         line += " dashes";
         for (const double length : s.dashes)
-            line += " " + text(length);
+            line.append(" ").append(text(length));
         line += " phase " + text(s.dashPhase);
     }
     return line;
@@ -76,14 +76,14 @@ template <class Gradient>
 std::string gradientTail(const Gradient& g) {
     std::string line = std::string(" ") + name(spreadNames, g.spread) + matrix(g.transform);
     for (const GradientStop& stop : g.stops)
-        line += " " + text(stop.offset) + " " + text(stop.color);
+        line.append(" ").append(text(stop.offset)).append(" ").append(text(stop.color));
     return line;
 }
 
 std::string list(std::span<const float> numbers) {
     std::string line;
     for (const float v : numbers)
-        line += " " + text(v);
+        line.append(" ").append(text(v));
     return line;
 }
 
