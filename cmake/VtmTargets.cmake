@@ -32,8 +32,8 @@ set(vtm_precompiled
     <fmt/format.h>
     <glm/common.hpp> <glm/geometric.hpp> <glm/mat2x2.hpp> <glm/mat3x2.hpp> <glm/matrix.hpp> <glm/vec2.hpp> <glm/vec3.hpp> <glm/vec4.hpp>)
 
-# vtm_unite(target): its files are always compiled several at a time. For what no user's build contains: headers take most
-# of the time. Its warnings are already linked.
+# vtm_unite(target): its files are always compiled several at a time. For what is no part of the library: headers take most
+# of the time. vtm_warnings is already linked.
 function(vtm_unite target)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON)
     target_link_libraries(${target} PRIVATE vtm_unity_warnings)

@@ -150,44 +150,41 @@ glm::dvec4 steepColor(double length, glm::dvec2 p) {
     return glm::mix(glm::dvec4(0, 0, 0, 1), left ? steepLeft : steepRight, toAndFro(u));
 }
 
-}  // namespace
-
-Asset steepHalves(double length) {
+/// The gradients, of `length` units, left and right of the edge.
+Asset halves(double length, Spread spread, const std::vector<GradientStop>& left,
+             const std::vector<GradientStop>& right) {
     Asset asset = oneLeaf({5, 6, 6, 5}, {line(steepBottom, steepTop, 5, 6)});
     const auto scale = float(1 / length);
     Gradient gradient;
-    gradient.spread = Spread::Reflect;
-    gradient.stopCount = 2;
-    const auto stops = [](const glm::vec4& c) {
-        return std::vector{stop(0, 0, 0, 0, 1), stop(1, c.r, c.g, c.b, c.a)};
-    };
+    gradient.spread = spread;
+    gradient.stopCount = std::uint32_t(left.size());
     gradient.matrix = {scale * float(steepWay.x), 0, scale * float(steepWay.y), 0, 0, 0};
-    const std::uint32_t left = addGradient(asset.data, gradient, stops(steepLeft));
+    const std::uint32_t linear = addGradient(asset.data, gradient, left);
+    gradient.stopCount = std::uint32_t(right.size());
     gradient.matrix = {scale, 0, 0, scale, -scale * float(steepMiddle.x), -scale * float(steepMiddle.y)};
-    const std::uint32_t right = addGradient(asset.data, gradient, stops(steepRight));
-    addProgram(asset, {layer(Op::Linear, left)});
-    addProgram(asset, {layer(Op::Radial, right)});
+    const std::uint32_t radial = addGradient(asset.data, gradient, right);
+    addProgram(asset, {layer(Op::Linear, linear)});
+    addProgram(asset, {layer(Op::Radial, radial)});
     return asset;
 }
 
+}  // namespace
+
+Asset steepHalves(double length) {
+    const auto stops = [](const glm::vec4& c) {
+        return std::vector{stop(0, 0, 0, 0, 1), stop(1, c.r, c.g, c.b, c.a)};
+    };
+    return halves(length, Spread::Reflect, stops(steepLeft), stops(steepRight));
+}
+
 Asset stripedHalves(double width) {
-    Asset asset = oneLeaf({5, 6, 6, 5}, {line(steepBottom, steepTop, 5, 6)});
     std::vector<GradientStop> stops;
     constexpr int last = 64;
     for (int i = 0; i <= last; ++i) {
         const glm::vec4 c = i % 2 == 0 ? glm::dvec4(0, 0, 0, 1) : steepLeft;
         stops.push_back(stop(float(i) / last, c.r, c.g, c.b, c.a));
     }
-    Gradient gradient;
-    gradient.stopCount = last + 1;
-    const auto scale = float(1 / (width * last));
-    gradient.matrix = {scale * float(steepWay.x), 0, scale * float(steepWay.y), 0, 0, 0};
-    const std::uint32_t left = addGradient(asset.data, gradient, stops);
-    gradient.matrix = {scale, 0, 0, scale, -scale * float(steepMiddle.x), -scale * float(steepMiddle.y)};
-    const std::uint32_t right = addGradient(asset.data, gradient, stops);
-    addProgram(asset, {layer(Op::Linear, left)});
-    addProgram(asset, {layer(Op::Radial, right)});
-    return asset;
+    return halves(width * last, Spread::Pad, stops, stops);
 }
 
 image::Raster steepHalvesByPoints(double length, int width, int height, const glm::dmat3x2& toPixels) {

@@ -31,7 +31,7 @@ struct Reach {
     }
     glm::dvec2 operator()(const scene::ColorMatrixFilter&) const { return glm::dvec2(0); }
     glm::dvec2 operator()(const scene::ComponentTransferFilter&) const { return glm::dvec2(0); }
-    /// Of the others it is not asked: they have regions.
+    /// Others may read anywhere: `farthest` bounds them.
     template <class Operation>
     glm::dvec2 operator()(const Operation&) const {
         return glm::dvec2(HUGE_VAL);
