@@ -21,14 +21,17 @@
 namespace vtm::bench {
 namespace {
 
+enum class Conditions { Steady, Usual };
+
 struct Entry {
     const char *name, *text;
     Report (*run)(const Options&);
+    Conditions conditions;
     bool slow = false;  ///< not among all in a quick run
 };
 
 constexpr Entry entries[] = {
-#define REPORT(name, text, slow) {#name, text, name, slow},
+#define REPORT(name, text, conditions, slow) {#name, text, name, conditions, slow},
 #include "bench/reports/reports.inc"
 #undef REPORT
 };
@@ -197,6 +200,8 @@ int run(const Arguments& a) {
     if (a.names.size() != 1)
         return runAll(a.names, a);
     const Entry& entry = entryOf(a.names[0]);
+    if (entry.conditions == Conditions::Steady && !a.options.wall)
+        useSteadyConditions();
     const double start = wallMilliseconds();
     Report report = entry.run(a.options);
     report.seconds = (wallMilliseconds() - start) / 1000;

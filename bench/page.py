@@ -93,7 +93,7 @@ def said(machine):
 
 
 OPEN = ("paper",)  # whose table is the point
-CAPTION = ("Times as ratios to VTM's on the CPU (CPU time of all threads, paired in one run); mean errors against exact truth "
+CAPTION = ("Times as ratios to VTM's on the CPU (CPU time on one processor, paired in one run); mean errors against exact truth "
            "and 99.9th percentiles, in 255ths; MB of peak memory from the file to 1024 pixels. Medians over the files that an engine draws as we do, in "
            "brackets the quartiles: rows of fewer files are of easier pictures. “VTM, as it is” is the renderer with default options, which scans on the "
            "CPU where there is no GPU, as here if the driver below is llvmpipe. Skia and Blend2D read no SVG and are given our paths, also when cold.")

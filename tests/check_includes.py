@@ -102,9 +102,9 @@ LIBRARIES = {
     r"potracelib\.h": {"trace"},
     r"emmintrin\.h": {"raster", "compiler"},
     r"linux/magic\.h": {"image"},
-    r"malloc\.h": {"limits", "tools"},
+    r"malloc\.h": {"limits", "tools", "bench"},
     r"fnmatch\.h": {"conformance/runner"},
-    r"pthread\.h|signal\.h|unistd\.h|fcntl\.h|poll\.h|sys/.*\.h": ANYWHERE,
+    r"pthread\.h|sched\.h|signal\.h|unistd\.h|fcntl\.h|poll\.h|sys/.*\.h": ANYWHERE,
 }
 STANDALONE = pathlib.PurePosixPath("examples/openvg/c")
 GENERATED = {"vg_constants.inc", "vg_functions.inc"}  # made by a module for itself when it is built

@@ -1,8 +1,11 @@
 #include "bench/measure/measure.hpp"
 
+#include <malloc.h>
+#include <sched.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <algorithm>
+#include <cstdlib>
 #include <ctime>
 #include <fstream>
 #include <string>
@@ -34,6 +37,24 @@ double wallMilliseconds() { return milliseconds(CLOCK_MONOTONIC); }
 double spentMilliseconds() { return milliseconds(spent); }
 void measureWallTime() { spent = CLOCK_MONOTONIC; }
 const char* clockName() { return spent == CLOCK_MONOTONIC ? "Wall" : "CPU"; }
+
+void useSteadyConditions() {
+    if (const int here = sched_getcpu(); here >= 0) {
+        cpu_set_t one;
+        CPU_ZERO(&one);
+        CPU_SET(here, &one);
+        sched_setaffinity(0, sizeof one, &one);
+    }
+    constexpr int mmapThreshold = 32 << 20;  // bytes; the most that glibc takes
+    constexpr int trimThreshold = 1 << 30;   // bytes; no process frees so many at its end
+    mallopt(M_MMAP_THRESHOLD, mmapThreshold);
+    mallopt(M_TRIM_THRESHOLD, trimThreshold);
+    // Of those that it starts; Skia's and resvg's modules have mimalloc.
+    setenv("MALLOC_MMAP_THRESHOLD_", std::to_string(mmapThreshold).c_str(), 1);
+    setenv("MALLOC_TRIM_THRESHOLD_", std::to_string(trimThreshold).c_str(), 1);
+    setenv("MIMALLOC_PURGE_DELAY", "-1", 1);  // of its version 2: never
+    setenv("MIMALLOC_PAGE_RESET", "0", 1);    // of its version 1
+}
 
 double quantile(std::vector<double> values, double share) {
     std::ranges::sort(values);

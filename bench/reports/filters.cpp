@@ -43,7 +43,7 @@ Report filters(const Options& options) {
     const fs::path folder = fs::temp_directory_path() / fmt::format("vtm_bench_filters_{}", getpid());
     fs::create_directories(folder);
     report.text = fmt::format(
-        "CPU milliseconds (user and system, all threads) from the file to pixels, {} wide, medians, all "
+        "CPU milliseconds (user and system) on one processor from the file to pixels, {} wide, medians, all "
         "taking turns in one run; in brackets how many times as long as `{}`. The first pictures are one "
         "drawing of 512 units with one filter each. On software drivers `gl` computes filters on the CPU, "
         "`shaders` by passes. The last two rows are drawn again and do not read the file. Qt draws SVG Tiny, "

@@ -34,7 +34,7 @@ Report text(const Options& options) {
     const fs::path folder = fs::temp_directory_path() / fmt::format("vtm_bench_text_{}", getpid());
     fs::create_directories(folder);
     report.text = fmt::format(
-        "CPU milliseconds (user and system, all threads) from the file to pixels, {} wide, medians, all "
+        "CPU milliseconds (user and system) on one processor from the file to pixels, {} wide, medians, all "
         "taking "
         "turns in one run after a first round that is not counted, so that fontconfig's caches are warm; in "
         "brackets how many times as long as `{}`. A page has 50 lines of 100 characters. The last column is "
