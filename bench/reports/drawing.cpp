@@ -89,9 +89,8 @@ Report drawing(const Options& options) {
     report.title = fmt::format("Drawing at {} pixels", options.side);
     Contenders all = contenders(options, report.notes);
     report.text = fmt::format(
-        "CPU milliseconds (user and system) on one processor of one drawing, medians, all taking turns in "
-        "one "
-        "run; in brackets how many times as long as `{}`, round by round: median and quartiles. ≠ marks a "
+        "CPU milliseconds of one drawing on one processor, medians, all taking turns in one run; in brackets "
+        "how many times as long as `{}`, round by round: median and quartiles. ≠ marks a "
         "picture that differs from ours by more than {} of 255 (rms of means over 64ths of the side). "
         "Turning: rotation and zoom change with every drawing, everything prepared before. Zoom path: from "
         "1/16 to "

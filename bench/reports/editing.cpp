@@ -479,8 +479,7 @@ std::string textOf(int side) {
     return fmt::format(
         "A session per file ([session.md](../../docs/session.md)), shown at {} pixels. {} of the items that "
         "lie in the picture, taken at random, are recoloured and put back, and moved by 1/{:.0f} of the "
-        "picture's side and put back. CPU milliseconds (user and system) on one processor, medians. "
-        "*recolour, "
+        "picture's side and put back. CPU milliseconds on one processor, medians. *recolour, "
         "move*: an edit until it is seen, that is the updates of session and scanner, or evaluator where "
         "there are filters (their part in brackets), and drawing the boxes that changed; then the worst. "
         "*redraw*: the same scanner draws "
