@@ -81,9 +81,19 @@ std::vector<std::string> builtCommands([[maybe_unused]] std::vector<std::string>
     return commands;
 }
 
-/// Peers that are processes of their own.
+/// Of those that are built into this program.
+std::string servedBy(const Options& options, const std::string& engine) {
+    return "exec '" + options.program + "' serve " + engine;
+}
+
+/// In the table's order; ratios in the table are against the last one.
+std::vector<std::string> ourCommands(const Options& options) {
+    return {servedBy(options, "shaders"), servedBy(options, "gl"), servedBy(options, "scan")};
+}
+
 std::vector<std::string> peerCommands(const Options& options, std::vector<std::string>& notes) {
-    std::vector<std::string> commands = builtCommands(notes);
+    std::vector<std::string> commands{servedBy(options, "cairo"), servedBy(options, "librsvg")};
+    std::ranges::copy(builtCommands(notes), std::back_inserter(commands));
     if (options.nodeModules.empty())
         notes.push_back("skia, resvg: missing, no folder with node_modules is named.");
     else
@@ -115,23 +125,18 @@ asset::View viewOf(const scene::Scene& scene, int side, const Kind& kind, int st
 
 Contenders contenders(const Options& options, std::vector<std::string>& notes) {
     Contenders all;
-    const auto add = [&](Engines engines, bool ours) {
-        for (auto& engine : engines)
-            all.push_back({.engine = std::move(engine), .ours = ours});
+    const auto add = [&](const std::vector<std::string>& commands, bool ours) {
+        for (const std::string& command : commands)
+            for (auto& engine : childEngines(command, notes))
+                all.push_back({.engine = std::move(engine), .ours = ours});
     };
-    add(glEngines(), true);
-    add(scanEngines(), true);
-    add(cairoEngines(notes), false);
-    add(rsvgEngines(notes), false);
-    for (const std::string& command : peerCommands(options, notes))
-        add(childEngines(command, notes), false);
+    add(ourCommands(options), true);
+    add(peerCommands(options, notes), false);
     return all;
 }
 
 std::vector<std::string> engineCommands(const Options& options, std::vector<std::string>& notes) {
-    std::vector<std::string> commands;
-    for (const char* engine : {"shaders", "gl", "scan", "cairo", "librsvg"})
-        commands.push_back("exec '" + options.program + "' serve " + engine);
+    std::vector<std::string> commands = ourCommands(options);
     std::ranges::copy(peerCommands(options, notes), std::back_inserter(commands));
     return commands;
 }

@@ -48,11 +48,11 @@ Patience patienceOf(const Options& options);
 /// at zoom 1.
 asset::View viewOf(const scene::Scene& scene, int side, const Kind& kind, int step);
 
-/// Ours and every peer that is here; the others are noted by name.
+/// Ours and every peer that is here, each in a process of its own, so that none pays for another one's memory
+/// and threads; the others are noted by name.
 Contenders contenders(const Options& options, std::vector<std::string>& notes);
 
-/// The commands of the processes that hold every engine, ours too, for what wants them apart. The missing are
-/// noted.
+/// The commands of their processes, for what wants fresh ones. The missing are noted.
 std::vector<std::string> engineCommands(const Options& options, std::vector<std::string>& notes);
 
 /// The last of ours, which the others are compared with.

@@ -44,7 +44,7 @@ public:
     virtual std::optional<double> drawCold(const CompiledFile& picture, const asset::View& view) = 0;
     /// What draw() draws.
     virtual image::Bitmap pixels(const asset::View& view) = 0;
-    /// Bytes of the largest resident set of the engine's process so far; nothing for one in ours.
+    /// Bytes of the largest resident set of the engine's process so far; nothing for one in this process.
     virtual std::optional<double> peakBytes() { return std::nullopt; }
 
 private:
@@ -53,7 +53,7 @@ private:
 
 using Engines = std::vector<std::unique_ptr<Engine>>;
 
-/// Our ways to draw, in the table's order; ratios in the table are against the last one.
+/// Our ways to draw.
 Engines glEngines();
 Engines scanEngines();
 

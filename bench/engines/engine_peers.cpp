@@ -16,13 +16,13 @@ public:
 
     double draw(const asset::View& view) override {
         prepareTarget(view);
-        return ownTime([&] { draw(shapes_, view); });
+        return spentTime([&] { draw(shapes_, view); });
     }
 
     /// Reading the file is ours.
     std::optional<double> drawCold(const CompiledFile& picture, const asset::View& view) override {
         prepareTarget(view);
-        return ownTime([&] { draw(shapesOf(bench::load(picture.file)), view); });
+        return spentTime([&] { draw(shapesOf(bench::load(picture.file)), view); });
     }
 
     image::Bitmap pixels(const asset::View& view) override {
@@ -64,12 +64,12 @@ public:
     void load(const CompiledFile& picture) override { rsvg_ = open(picture); }
 
     double draw(const asset::View& view) override {
-        return ownTime([&] { rsvg_->draw(view); });
+        return spentTime([&] { rsvg_->draw(view); });
     }
 
     std::optional<double> drawCold(const CompiledFile& picture, const asset::View& view) override {
         std::optional<Rsvg> rsvg;  // outlives the clock
-        return ownTime([&] {
+        return spentTime([&] {
             rsvg = open(picture);
             rsvg->draw(view);
         });

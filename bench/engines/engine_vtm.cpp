@@ -82,7 +82,7 @@ public:
 
     double draw(const asset::View& view) override {
         prepareTarget(view);
-        return ownTime([&] {
+        return spentTime([&] {
             if (evaluator_)
                 evaluator_->draw(view, target(view));
             else
@@ -92,7 +92,7 @@ public:
 
     std::optional<double> drawCold(const CompiledFile& picture, const asset::View& view) override {
         prepareTarget(view);
-        return ownTime([&] {
+        return spentTime([&] {
             if (drawOnce(picture.file, view, bytes_))
                 return;
             const asset::Asset asset = assetOf(picture.file);

@@ -20,7 +20,6 @@ double milliseconds(clockid_t clock) {
 }
 
 clockid_t spent = CLOCK_PROCESS_CPUTIME_ID;
-bool steady = false;
 
 }  // namespace
 
@@ -36,7 +35,6 @@ double peakBytes() {
 double threadMilliseconds() { return milliseconds(CLOCK_THREAD_CPUTIME_ID); }
 double wallMilliseconds() { return milliseconds(CLOCK_MONOTONIC); }
 double spentMilliseconds() { return milliseconds(spent); }
-double ownMilliseconds() { return steady ? threadMilliseconds() : spentMilliseconds(); }
 void measureWallTime() { spent = CLOCK_MONOTONIC; }
 const char* clockName() { return spent == CLOCK_MONOTONIC ? "Wall" : "CPU"; }
 
@@ -45,7 +43,7 @@ void useSteadyConditions() {
         cpu_set_t one;
         CPU_ZERO(&one);
         CPU_SET(here, &one);
-        steady = sched_setaffinity(0, sizeof one, &one) == 0;
+        sched_setaffinity(0, sizeof one, &one);
     }
     constexpr int mmapThreshold = 32 << 20;  // bytes; the most that glibc takes
     constexpr int trimThreshold = 1 << 30;   // bytes; no process frees so many at its end

@@ -27,11 +27,6 @@ const char* clockName();
 ///   again page by page, and a page takes from 0.2 to 7 µs, by the machine.
 void useSteadyConditions();
 
-/// CPU time of what the calling thread works on alone, as everything but GL does under steady conditions:
-/// what GL's engines leave to other threads of this process (tiles ahead of a zoom, programs) is not counted.
-/// Under other conditions, spentMilliseconds().
-double ownMilliseconds();
-
 /// Bytes of the largest resident set of this process since its program began.
 double peakBytes();
 
@@ -41,14 +36,6 @@ double spentTime(Work&& work) {
     const double start = spentMilliseconds();
     work();
     return spentMilliseconds() - start;
-}
-
-/// The same by ownMilliseconds().
-template <class Work>
-double ownTime(Work&& work) {
-    const double start = ownMilliseconds();
-    work();
-    return ownMilliseconds() - start;
 }
 
 /// The value that `share` of the others are not above; 0 of none.

@@ -142,7 +142,7 @@ public:
 
     /// CPU milliseconds of drawing everything.
     double redraw() {
-        return ownTime([&] {
+        return spentTime([&] {
             if (scanner_)
                 scanner_->draw(view, target());
             else if (whole_)
@@ -153,11 +153,11 @@ public:
     /// After an edit of the scene.
     Cost follow() {
         Cost cost;
-        cost.session = ownTime([&] { session.update(scene); });
+        cost.session = spentTime([&] { session.update(scene); });
         cost.blocks = session.lastUpdate().blocks;
         if (shows()) {
-            cost.scanner = ownTime([&] { bringToSession(); });
-            cost.boxes = ownTime([&] { drawChanges(); });
+            cost.scanner = spentTime([&] { bringToSession(); });
+            cost.boxes = spentTime([&] { drawChanges(); });
         }
         if (whole_)
             whole_->update(session.result().asset, session.difference());
@@ -200,7 +200,7 @@ Costs costsOf(Editor& editor, const std::vector<Item*>& which, const Edit& edit,
     Costs costs;
     for (Item* item : which) {
         const Item before = *item;
-        const double compiling = ownTime([&] { compiler::compile(editor.scene); });
+        const double compiling = spentTime([&] { compiler::compile(editor.scene); });
         first();
         for (const bool there : {true, false}) {
             if (there)
@@ -225,7 +225,7 @@ Costs morph(Editor& editor, const std::vector<Item*>& all, double by, int pictur
             const double angle = double(i) + 0.1 * (picture + 1);
             move(*all[i], before[i], by * std::cos(angle), by * std::sin(angle));
         }
-        const double compiling = ownTime([&] { compiler::compile(editor.scene); });
+        const double compiling = spentTime([&] { compiler::compile(editor.scene); });
         costs.push_back(editor.follow());
         costs.back().compiling = compiling;
     }
@@ -393,7 +393,7 @@ EditedFile measure(const File& file, Peers& peers, const Options& options, std::
     EditedFile m;
     m.file = file.name;
     m.blocks = editor.session.lastUpdate().blocksInAll;
-    m.start = ownTime([&] { compiler::Session{editor.scene}; });
+    m.start = spentTime([&] { compiler::Session{editor.scene}; });
     m.bytes = bytesOf(editor.session.result()) / bytesOf(fresh);
     startAll(editor, peers, file, notes);
     m.shown = editor.shows();
