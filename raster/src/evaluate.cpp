@@ -297,10 +297,8 @@ private:
             }
             commands = commands.subspan(count);
         }
-        KeptBlocks* const blocks = KeptBlocks::ofThread();
         const auto draw = [&, holding = limits::current()](std::size_t i) {
             const limits::Scope scope(holding);
-            const KeptBlocks::Shared shared(blocks);
             PictureStack stack(paints_, view, materials_, levels_, maps_, isAtRoot() ? keeping_ : Keeping{});
             stack.execute(pushed[i].inner());
             pushed[i].canvas = stack.take();
@@ -435,7 +433,7 @@ private:
 Canvas drawn(const Paints& paints, const View& view, const MaterialFunction& materials, int levels,
              const MapDrawer* maps = nullptr, const Keeping& keeping = {}) {
     validate(view);
-    const KeptBlocks blocks;
+    const BlocksOfDrawing blocks;
     PictureStack stack(paints, view, materials, levels, maps, keeping);
     stack.execute(paints.asset().commands);
     return stack.take();

@@ -2,7 +2,15 @@
 
 #include <sys/mman.h>
 
+#include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <cstdlib>
+#include <iterator>
+#include <map>
+#include <mutex>
+#include <new>
+#include <unordered_map>
 
 #include <vtm/limits/limits.hpp>
 
@@ -13,91 +21,129 @@ namespace {
 constexpr std::size_t hugePage = 2 << 20, page = 4 << 10;  ///< bytes
 /// A free block is lent for less than itself, but not for less than this share of it.
 constexpr std::size_t leastShare = 2;
-/// Free blocks are kept up to so many bytes: a dozen pictures of 2048² pixels.
-constexpr std::size_t mostKept = std::size_t(1) << 30;
+/// Free blocks are kept up to so many bytes: while something is drawn, a dozen pictures of 2048² pixels.
+constexpr std::size_t mostWhileDrawing = std::size_t(1) << 30, mostBetween = 192 << 20;
 
-thread_local KeptBlocks* current = nullptr;
-
+/// To quarters of powers of two, so that blocks of nearly one size fit for each other. What is not used of
+/// them is no memory of the machine.
 std::size_t roundedUp(std::size_t bytes) {
-    const std::size_t step = bytes < hugePage ? page : hugePage;
+    const std::size_t step = std::max(std::bit_floor(bytes) / 4, bytes < hugePage ? page : hugePage);
     return (bytes + step - 1) / step * step;
+}
+
+/// From the system and not from the heap: glibc's grows with every few blocks of such an alignment, and its
+/// pages come and go one by one.
+void* newHugePages(std::size_t bytes) {
+    void* const all =
+        mmap(nullptr, bytes + hugePage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (all == MAP_FAILED)
+        throw std::bad_alloc();
+    auto* const first = static_cast<std::uint8_t*>(all);
+    const std::size_t before = (hugePage - reinterpret_cast<std::uintptr_t>(all) % hugePage) % hugePage;
+    if (before > 0)
+        munmap(first, before);
+    munmap(first + before + bytes, hugePage - before);
+    madvise(first + before, bytes, MADV_HUGEPAGE);  // fails where there are none, which changes nothing
+    return first + before;
 }
 
 void* newBlock(std::size_t bytes) {
     limits::need(bytes);
-    void* const block = std::aligned_alloc(bytes < hugePage ? page : hugePage, bytes);
+    if (bytes >= hugePage)
+        return newHugePages(bytes);
+    void* const block = std::malloc(bytes);
     if (!block)
         throw std::bad_alloc();
-    if (bytes >= hugePage)
-        madvise(block, bytes, MADV_HUGEPAGE);  // fails where there are none, which changes nothing
     return block;
 }
+
+void freeBlock(void* block, std::size_t size) noexcept {
+    if (size >= hugePage)
+        munmap(block, size);
+    else
+        std::free(block);
+}
+
+/// Those of the process that are free.
+class FreeBlocks {
+public:
+    static FreeBlocks& ofProcess() {
+        static FreeBlocks& all = *new FreeBlocks;  // as long as the process: globals may have pixels
+        return all;
+    }
+
+    /// Null if none fits.
+    void* take(std::size_t bytes) {
+        const std::lock_guard lock(mutex_);
+        const auto found = free_.lower_bound(bytes);
+        if (found == free_.end() || found->first > leastShare * bytes)
+            return nullptr;
+        const auto [size, block] = *found;
+        if (size != bytes)
+            lent_[block] = size;
+        bytes_ -= size;
+        free_.erase(found);
+        return block;
+    }
+    void give(void* block, std::size_t bytes) noexcept {
+        const std::lock_guard lock(mutex_);
+        std::size_t size = bytes;
+        if (const auto lent = lent_.find(block); lent != lent_.end()) {
+            size = lent->second;
+            lent_.erase(lent);
+        }
+        if (!keep(block, size))
+            freeBlock(block, size);
+    }
+    void beginDrawing() {
+        const std::lock_guard lock(mutex_);
+        ++drawings_;
+    }
+    void endDrawing() noexcept {
+        const std::lock_guard lock(mutex_);
+        --drawings_;
+        while (bytes_ > most()) {
+            const auto largest = std::prev(free_.end());
+            bytes_ -= largest->first;
+            freeBlock(largest->second, largest->first);
+            free_.erase(largest);
+        }
+    }
+
+private:
+    std::size_t most() const { return drawings_ > 0 ? mostWhileDrawing : mostBetween; }
+    bool keep(void* block, std::size_t size) noexcept {
+        if (bytes_ + size > most())
+            return false;
+        try {
+            free_.emplace(size, block);
+        } catch (const std::bad_alloc&) {
+            return false;
+        }
+        bytes_ += size;
+        return true;
+    }
+
+    std::mutex mutex_;                             ///< guards what follows
+    std::multimap<std::size_t, void*> free_;       ///< by their size
+    std::unordered_map<void*, std::size_t> lent_;  ///< of those lent for less, their size
+    std::size_t bytes_ = 0;                        ///< of free_
+    std::size_t drawings_ = 0;                     ///< that last
+};
 
 }  // namespace
 
-KeptBlocks::KeptBlocks() : outer_(std::exchange(current, this)) {}
-
-KeptBlocks::~KeptBlocks() {
-    current = outer_;
-    for (const auto& [bytes, block] : free_)
-        std::free(block);
-}
-
-KeptBlocks* KeptBlocks::ofThread() { return current; }
-
-KeptBlocks::Shared::Shared(KeptBlocks* blocks) : before_(std::exchange(current, blocks ? blocks : current)) {}
-KeptBlocks::Shared::~Shared() { current = before_; }
-
-void* KeptBlocks::take(std::size_t bytes) {
-    const std::lock_guard lock(mutex_);
-    const auto found = free_.lower_bound(bytes);
-    if (found == free_.end() || found->first > leastShare * bytes)
-        return nullptr;
-    const auto [size, block] = *found;
-    if (size != bytes)
-        largest_[block] = size;
-    bytes_ -= size;
-    free_.erase(found);
-    return block;
-}
-
-/// One that was there and was not given back here.
-void KeptBlocks::forget(void* block) {
-    const std::lock_guard lock(mutex_);
-    largest_.erase(block);
-}
-
-bool KeptBlocks::keep(void* block, std::size_t bytes) noexcept {
-    const std::lock_guard lock(mutex_);
-    const auto lent = largest_.find(block);
-    const std::size_t size = lent == largest_.end() ? bytes : lent->second;
-    if (lent != largest_.end())
-        largest_.erase(lent);
-    if (bytes_ + size > mostKept)
-        return false;
-    try {
-        free_.emplace(size, block);
-    } catch (const std::bad_alloc&) {
-        return false;
-    }
-    bytes_ += size;
-    return true;
-}
+BlocksOfDrawing::BlocksOfDrawing() { FreeBlocks::ofProcess().beginDrawing(); }
+BlocksOfDrawing::~BlocksOfDrawing() { FreeBlocks::ofProcess().endDrawing(); }
 
 void* takeBlock(std::size_t bytes) {
     bytes = roundedUp(bytes);
-    if (!current)
-        return newBlock(bytes);
-    if (void* const kept = current->take(bytes))
-        return kept;
-    void* const block = newBlock(bytes);
-    current->forget(block);
-    return block;
+    void* const kept = FreeBlocks::ofProcess().take(bytes);
+    return kept ? kept : newBlock(bytes);
 }
 
 void giveBlock(void* block, std::size_t bytes) noexcept {
-    if (!current || !current->keep(block, roundedUp(bytes)))
-        std::free(block);
+    FreeBlocks::ofProcess().give(block, roundedUp(bytes));
 }
 
 }  // namespace vtm::asset

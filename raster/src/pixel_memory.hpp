@@ -3,59 +3,27 @@
 #pragma once
 
 #include <cstddef>
-#include <map>
 #include <memory>
-#include <mutex>
-#include <new>
-#include <unordered_map>
-#include <utility>
 #include <vector>
 
 #include "raster/src/float4.hpp"
 
 namespace vtm::asset {
 
-/// While it lives, large blocks of pixels that its threads free are used again: filters make and drop a dozen
-/// rasters of one size, and a new one's pages, which the system clears one by one, cost more than filling it.
-class KeptBlocks {
+/// Large blocks of pixels that are freed are used again: filters make and drop a dozen rasters of one size,
+/// and a new one's pages, which the system clears one by one, cost more than filling it. While one of these
+/// lives, in whatever thread, up to 1 GB is kept for the process, and between drawings up to 192 MB, since
+/// the next one needs the same.
+class BlocksOfDrawing {
 public:
-    /// For the thread that makes it.
-    KeptBlocks();
-    ~KeptBlocks();
-    KeptBlocks(const KeptBlocks&) = delete;
-    KeptBlocks& operator=(const KeptBlocks&) = delete;
-
-    /// Those of this thread; null if there are none.
-    static KeptBlocks* ofThread();
-    /// Lets another thread use them, or does nothing for null.
-    class Shared {
-    public:
-        explicit Shared(KeptBlocks* blocks);
-        ~Shared();
-        Shared(const Shared&) = delete;
-        Shared& operator=(const Shared&) = delete;
-
-    private:
-        KeptBlocks* const before_;
-    };
-
-private:
-    friend void* takeBlock(std::size_t bytes);
-    friend void giveBlock(void* block, std::size_t bytes) noexcept;
-
-    void* take(std::size_t bytes);
-    void forget(void* block);
-    bool keep(void* block, std::size_t bytes) noexcept;
-
-    KeptBlocks* const outer_;
-    std::mutex mutex_;                                ///< guards what follows
-    std::multimap<std::size_t, void*> free_;          ///< by their size
-    std::unordered_map<void*, std::size_t> largest_;  ///< of those lent for less, their size
-    std::size_t bytes_ = 0;                           ///< of free_
+    BlocksOfDrawing();
+    ~BlocksOfDrawing();
+    BlocksOfDrawing(const BlocksOfDrawing&) = delete;
+    BlocksOfDrawing& operator=(const BlocksOfDrawing&) = delete;
 };
 
-/// At least so many bytes, aligned for any pixel. Blocks of 2 MB and more are in huge pages where Linux has
-/// them. Throws std::bad_alloc, or what limits::need throws.
+/// At least so many bytes, aligned as malloc does. Blocks of 2 MB and more are the system's own, in huge
+/// pages where Linux has them, and go back to it. Throws std::bad_alloc, or what limits::need throws.
 void* takeBlock(std::size_t bytes);
 /// `bytes`: as it was taken for.
 void giveBlock(void* block, std::size_t bytes) noexcept;
