@@ -44,7 +44,7 @@ bool did(Contender& one, const std::string& where, std::vector<std::string>& not
     return one.able;
 }
 
-void writePicture(Engine& engine, const CompiledFile& picture, const Kind& kind, const Options& options) {
+void writePicture(Engine& engine, const LoadedFile& picture, const Kind& kind, const Options& options) {
     const std::string name =
         fmt::format("{}_{}x_{}.png", picture.file.name, kind.zoom * kind.size, engine.name());
     const image::Bitmap drawn = engine.pixels(viewOf(picture.scene, options.side, kind, 0));
@@ -145,8 +145,8 @@ const Contender& reference(const Contenders& all) {
     return *std::ranges::find_if(all.rbegin(), all.rend(), &Contender::ours);
 }
 
-void prepare(Contenders& all, const CompiledFile& picture, std::span<const Kind> kinds,
-             const Options& options, std::vector<std::string>& notes) {
+void prepare(Contenders& all, const LoadedFile& picture, std::span<const Kind> kinds, const Options& options,
+             std::vector<std::string>& notes) {
     const asset::View view = viewOf(picture.scene, options.side, {""}, 0);
     std::vector<image::Bitmap> drawn(all.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -170,7 +170,7 @@ void prepare(Contenders& all, const CompiledFile& picture, std::span<const Kind>
                     [&] { writePicture(*one.engine, picture, kind, options); });
 }
 
-void takeTurns(Contenders& all, const CompiledFile& picture, const Kind& kind, int side,
+void takeTurns(Contenders& all, const LoadedFile& picture, const Kind& kind, int side,
                const Patience& patience, std::vector<std::string>& notes) {
     const std::string where = picture.file.name + ", " + kind.name;
     for (Contender& one : all) {

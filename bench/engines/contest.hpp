@@ -60,12 +60,12 @@ const Contender& reference(const Contenders& all);
 
 /// Loads a picture everywhere and compares what each makes of it. Writes what they draw at the zooms of
 /// `kinds`, if wanted. What an engine cannot do is noted.
-void prepare(Contenders& all, const CompiledFile& picture, std::span<const Kind> kinds,
-             const Options& options, std::vector<std::string>& notes);
+void prepare(Contenders& all, const LoadedFile& picture, std::span<const Kind> kinds, const Options& options,
+             std::vector<std::string>& notes);
 
 /// All take turns, a view a round; the first round is not counted. Leaves their times. An engine that fails
 /// is out until the next kind of views.
-void takeTurns(Contenders& all, const CompiledFile& picture, const Kind& kind, int side,
+void takeTurns(Contenders& all, const LoadedFile& picture, const Kind& kind, int side,
                const Patience& patience, std::vector<std::string>& notes);
 
 }  // namespace vtm::bench

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include <vtm/asset/asset.hpp>
 #include <vtm/image/bitmap.hpp>
 #include <vtm/raster/view.hpp>
 #include <vtm/scene/scene.hpp>
@@ -15,11 +14,10 @@
 
 namespace vtm::bench {
 
-/// A file and what our compiler made of it.
-struct CompiledFile {
+/// A file and the scene in it.
+struct LoadedFile {
     File file;
     scene::Scene scene;
-    asset::Asset asset;
 };
 
 /// Draws one picture at a time. Every function throws std::runtime_error that says what went wrong.
@@ -35,13 +33,13 @@ public:
     const std::string& description() const { return description_; }  ///< with versions
 
     /// Prepares a picture: everything that can be done once for all views.
-    virtual void load(const CompiledFile& picture) = 0;
+    virtual void load(const LoadedFile& picture) = 0;
     /// CPU milliseconds (user and system, all threads) of drawing it on transparent black, until the pixels
     /// stand.
     virtual double draw(const asset::View& view) = 0;
     /// The same from the file, or from a file of our scene's paths for an engine that reads no others;
     /// nothing for one that reads none. What was loaded stays loaded.
-    virtual std::optional<double> drawCold(const CompiledFile& picture, const asset::View& view) = 0;
+    virtual std::optional<double> drawCold(const LoadedFile& picture, const asset::View& view) = 0;
     /// What draw() draws.
     virtual image::Bitmap pixels(const asset::View& view) = 0;
     /// Bytes of the largest resident set of the engine's process so far; nothing for one in this process.

@@ -137,7 +137,7 @@ public:
           child_(std::move(child)),
           takes_(std::move(takes)) {}
 
-    void load(const CompiledFile& picture) override {
+    void load(const LoadedFile& picture) override {
         written_.reset();
         const bool ours = readsPaths() || (takes_ == "either" && arePaths(picture.scene.root, false));
         child_->ask("load " + subject(picture, ours ? writePaths(picture) : picture.file.path.string()));
@@ -147,7 +147,7 @@ public:
         return std::stod(child_->ask("draw " + name() + " " + textOf(view)));
     }
 
-    std::optional<double> drawCold(const CompiledFile& picture, const asset::View& view) override {
+    std::optional<double> drawCold(const LoadedFile& picture, const asset::View& view) override {
         const std::string path = readsPaths() ? writePaths(picture) : picture.file.path.string();
         return std::stod(child_->ask("cold " + subject(picture, textOf(view) + " " + path)));
     }
@@ -161,7 +161,7 @@ public:
     std::optional<double> peakBytes() override { return std::stod(child_->ask("peak " + name())); }
 
 private:
-    std::string subject(const CompiledFile& picture, const std::string& rest) const {
+    std::string subject(const LoadedFile& picture, const std::string& rest) const {
         return fmt::format("{} {} {} {}", name(), picture.scene.width, picture.scene.height, rest);
     }
 
@@ -169,7 +169,7 @@ private:
     bool readsPaths() const { return takes_ == "paths" || takes_ == "gradients"; }
 
     /// The path of a file with the paths of our scene, which is written once for all cold drawings.
-    std::string writePaths(const CompiledFile& picture) {
+    std::string writePaths(const LoadedFile& picture) {
         const bool withGradients = takes_ == "gradients";
         if (!arePaths(picture.scene.root, withGradients))
             throw std::runtime_error(withGradients

@@ -12,7 +12,7 @@ public:
     explicit CairoEngine(const std::string& version)
         : Engine("cairo", version + ", the paths of our scene, a call each") {}
 
-    void load(const CompiledFile& picture) override { shapes_ = shapesOf(picture.scene); }
+    void load(const LoadedFile& picture) override { shapes_ = shapesOf(picture.scene); }
 
     double draw(const asset::View& view) override {
         prepareTarget(view);
@@ -20,7 +20,7 @@ public:
     }
 
     /// Reading the file is ours.
-    std::optional<double> drawCold(const CompiledFile& picture, const asset::View& view) override {
+    std::optional<double> drawCold(const LoadedFile& picture, const asset::View& view) override {
         prepareTarget(view);
         return spentTime([&] { draw(shapesOf(bench::load(picture.file)), view); });
     }
@@ -61,13 +61,13 @@ class RsvgEngine : public Engine {
 public:
     explicit RsvgEngine(const std::string& version) : Engine("librsvg", version) {}
 
-    void load(const CompiledFile& picture) override { rsvg_ = open(picture); }
+    void load(const LoadedFile& picture) override { rsvg_ = open(picture); }
 
     double draw(const asset::View& view) override {
         return spentTime([&] { rsvg_->draw(view); });
     }
 
-    std::optional<double> drawCold(const CompiledFile& picture, const asset::View& view) override {
+    std::optional<double> drawCold(const LoadedFile& picture, const asset::View& view) override {
         std::optional<Rsvg> rsvg;  // outlives the clock
         return spentTime([&] {
             rsvg = open(picture);
@@ -81,7 +81,7 @@ public:
     }
 
 private:
-    static Rsvg open(const CompiledFile& picture) {
+    static Rsvg open(const LoadedFile& picture) {
         return Rsvg(picture.file.path, picture.scene.width, picture.scene.height);
     }
 

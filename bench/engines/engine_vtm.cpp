@@ -9,7 +9,8 @@
 namespace vtm::bench {
 namespace {
 
-asset::Asset assetOf(const File& file) { return compiler::compile(load(file)).asset; }
+asset::Asset assetOf(const scene::Scene& scene) { return compiler::compile(scene).asset; }
+asset::Asset assetOf(const File& file) { return assetOf(load(file)); }
 
 /// As the library draws the first view on the CPU. False where it compiles.
 bool drawOnce(const File& file, const asset::View& view, std::vector<std::uint8_t>& bytes) {
@@ -35,13 +36,13 @@ public:
           renderer_(optionsOf(pixels)),
           drawsOnce_(pixels == gl::Pixels::Automatic && context_->isSoftware()) {}
 
-    void load(const CompiledFile& picture) override { texture_ = renderer_.upload(picture.asset); }
+    void load(const LoadedFile& picture) override { texture_ = renderer_.upload(assetOf(picture.scene)); }
 
     double draw(const asset::View& view) override {
         return spentTime([&] { renderer_.draw(*texture_, view); });
     }
 
-    std::optional<double> drawCold(const CompiledFile& picture, const asset::View& view) override {
+    std::optional<double> drawCold(const LoadedFile& picture, const asset::View& view) override {
         std::optional<gl::Texture> texture;  // outlives the clock
         std::vector<std::uint8_t> bytes(std::size_t(view.width) * std::size_t(view.height) * 4);
         return spentTime([&] {
@@ -69,13 +70,14 @@ class ScanEngine : public Engine {
 public:
     ScanEngine() : Engine("scan", "asset::Scanner, no GL; asset::Evaluator where there are filters") {}
 
-    void load(const CompiledFile& picture) override {
+    void load(const LoadedFile& picture) override {
         scanner_.reset();
         evaluator_.reset();
-        if (picture.asset.filters.empty()) {
-            scanner_.emplace(picture.asset);
+        asset::Asset asset = assetOf(picture.scene);
+        if (asset.filters.empty()) {
+            scanner_.emplace(asset);
         } else {
-            filtered_ = picture.asset;
+            filtered_ = std::move(asset);
             evaluator_.emplace(filtered_);
         }
     }
@@ -90,7 +92,7 @@ public:
         });
     }
 
-    std::optional<double> drawCold(const CompiledFile& picture, const asset::View& view) override {
+    std::optional<double> drawCold(const LoadedFile& picture, const asset::View& view) override {
         prepareTarget(view);
         return spentTime([&] {
             if (drawOnce(picture.file, view, bytes_))

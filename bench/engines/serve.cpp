@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <vtm/compiler/compile.hpp>
 #include <vtm/image/codec.hpp>
 #include "bench/engines/engine.hpp"
 #include "bench/engines/peer_process.hpp"
@@ -34,7 +33,7 @@ public:
         if (verb == "draw")
             return std::to_string(engine.draw(view));
         if (verb == "cold")
-            return std::to_string(engine.drawCold({file, std::move(scene), {}}, view).value());
+            return std::to_string(engine.drawCold({file, std::move(scene)}, view).value());
         if (verb == "load")
             load(engine, file);
         else if (verb == "picture")
@@ -52,11 +51,7 @@ private:
         return **found;
     }
 
-    static void load(Engine& engine, const File& file) {
-        CompiledFile picture{file, bench::load(file), {}};
-        picture.asset = compiler::compile(picture.scene).asset;
-        engine.load(picture);
-    }
+    static void load(Engine& engine, const File& file) { engine.load({file, bench::load(file)}); }
 
     Engines engines_;
 };

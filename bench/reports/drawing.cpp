@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <vtm/compiler/compile.hpp>
 #include "bench/engines/contest.hpp"
 #include "bench/measure/measure.hpp"
 
@@ -39,7 +38,7 @@ std::string cell(const Contender& one, const Contender& against) {
                        one.difference > otherPicture ? " ≠" : "");
 }
 
-void addRows(const Contenders& all, const CompiledFile& picture, const Kind& kind, int side, Report& report) {
+void addRows(const Contenders& all, const LoadedFile& picture, const Kind& kind, int side, Report& report) {
     Json line = {{"file", picture.file.name}, {"views", kind.name}};
     for (const Contender& one : all) {
         line[one.engine->name()] = cell(one, reference(all));
@@ -103,8 +102,7 @@ Report drawing(const Options& options) {
     report.text += "\n";
     for (const File& file : filesOf(options)) {
         fmt::print(stderr, "{}\n", file.name);
-        CompiledFile picture{file, load(file), {}};
-        picture.asset = compiler::compile(picture.scene).asset;
+        const LoadedFile picture{file, load(file)};
         prepare(all, picture, kinds, options, report.notes);
         for (const Kind& kind : kinds) {
             takeTurns(all, picture, kind, options.side, patienceOf(options), report.notes);

@@ -241,7 +241,7 @@ public:
         std::erase_if(all_, [&](const Contender& one) { return one.ours && one.engine->name() != scan; });
     }
 
-    void start(const CompiledFile& picture, const asset::View& view) {
+    void start(const LoadedFile& picture, const asset::View& view) {
         prepare(all_, picture, {}, options_, notes_);
         forget();
         turn(picture.file.name, view);  // not counted
@@ -334,7 +334,7 @@ void startAll(Editor& editor, Peers& peers, const File& file, std::vector<std::s
         notes.push_back(fmt::format("{}: edits are not shown: {}.", file.name, reason.what()));
         return;
     }
-    peers.start({file, editor.scene, compiler::compile(editor.scene).asset}, editor.view);
+    peers.start({file, editor.scene}, editor.view);
 }
 
 struct Items {

@@ -3,7 +3,6 @@
 
 #include <fmt/core.h>
 
-#include <vtm/compiler/compile.hpp>
 #include <vtm/compiler/view.hpp>
 #include "bench/engines/contest.hpp"
 #include "bench/measure/measure.hpp"
@@ -28,7 +27,7 @@ asset::View wholePicture(const scene::Scene& scene, int width) {
 }
 
 /// Another engine's, averaged over many samples, where the corpus has one; else our exact reference.
-Truth truthOf(const CompiledFile& picture, const asset::View& view) {
+Truth truthOf(const LoadedFile& picture, const asset::View& view) {
     const std::filesystem::path known =
         sharedFolder() / "corpus" / "truth" / fmt::format("{}.{}.png", picture.file.name, view.width);
     if (std::filesystem::exists(known))
@@ -38,7 +37,7 @@ Truth truthOf(const CompiledFile& picture, const asset::View& view) {
             "reference"};
 }
 
-void addErrors(Contenders& all, const CompiledFile& picture, int side, Report& report) {
+void addErrors(Contenders& all, const LoadedFile& picture, int side, Report& report) {
     const asset::View view = wholePicture(picture.scene, side);
     const Truth truth = truthOf(picture, view);
     Json line = {{"file", picture.file.name}, {"px", side}, {"truth", truth.source}};
@@ -101,8 +100,7 @@ Report error(const Options& options) {
     Contenders all = contenders(options, report.notes);
     for (const File& file : filesOf(options)) {
         fmt::print(stderr, "{}\n", file.name);
-        CompiledFile picture{file, load(file), {}};
-        picture.asset = compiler::compile(picture.scene).asset;
+        const LoadedFile picture{file, load(file)};
         for (const int side : truthSides)
             addErrors(all, picture, side, report);
     }

@@ -7,7 +7,6 @@
 
 #include <fmt/core.h>
 
-#include <vtm/compiler/compile.hpp>
 #include "bench/input/filter_pictures.hpp"
 #include "bench/reports/picture_rows.hpp"
 
@@ -15,12 +14,6 @@ namespace vtm::bench {
 namespace {
 
 namespace fs = std::filesystem;
-
-CompiledFile compiled(const File& file) {
-    CompiledFile picture{file, load(file), {}};
-    picture.asset = compiler::compile(picture.scene).asset;
-    return picture;
-}
 
 /// Ours, and the pictures of the corpus that are made of filters.
 std::vector<File> picturesIn(const fs::path& folder, std::vector<std::string>& notes) {
@@ -52,12 +45,12 @@ Report filters(const Options& options) {
     report.text += descriptionsOf(all);
     const std::vector<File> files = picturesIn(folder, report.notes);
     for (const File& file : files)
-        report.rows.push_back(pictureRow(all, compiled(file), cold, "picture", options, report.notes));
+        report.rows.push_back(pictureRow(all, {file, load(file)}, cold, "picture", options, report.notes));
     Options small = options;
     small.side = 512;
     for (File file : std::span(files).first(2)) {
         file.name += ", drawn again, 512 wide";
-        report.rows.push_back(pictureRow(all, compiled(file), again, "picture", small, report.notes));
+        report.rows.push_back(pictureRow(all, {file, load(file)}, again, "picture", small, report.notes));
     }
     fs::remove_all(folder);
     removeEmptyColumns(all, report.rows);

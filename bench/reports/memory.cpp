@@ -27,7 +27,7 @@ struct Peak {
 };
 
 /// Of a fresh process that draws one file once. Engines that read none are given the scene's paths.
-Peak peakOf(const Target& target, const CompiledFile& picture, int side) {
+Peak peakOf(const Target& target, const LoadedFile& picture, int side) {
     std::vector<std::string> known;  // what is missing was noted before
     const Engines engines = childEngines(target.command, known);
     Engine& engine = *engines.at(target.index);
@@ -54,7 +54,7 @@ Report memory(const Options& options) {
     const std::vector<Target> targets = targetsOf(options, report.notes);
     for (const File& file : filesOf(options)) {
         fmt::print(stderr, "{}\n", file.name);
-        const CompiledFile picture{file, load(file), {}};
+        const LoadedFile picture{file, load(file)};
         Json line = {{"file", file.name}};
         for (const Target& target : targets) {
             line[target.name] = "-";

@@ -114,8 +114,8 @@ void addQt(const Options& options, int side, Report& report) {
     std::filesystem::create_directories(folder);
     const std::vector<File> files = writeTextPages(folder, report.notes);
     if (!files.empty()) {
-        CompiledFile page{files.front(), load(files.front()), {}};
-        page.asset = compiler::compile(page.scene).asset;
+        const LoadedFile page{files.front(), load(files.front())};
+        const std::size_t bytes = asset::summarize(compiler::compile(page.scene).asset).bytes;
         prepare(all, page, {&turning, 1}, options, report.notes);
         takeTurns(all, page, turning, side, patienceOf(options), report.notes);
         for (const Contender& one : all)
@@ -124,7 +124,7 @@ void addQt(const Options& options, int side, Report& report) {
                                        {"as", one.engine->name()},
                                        {"ms", fmt::format("{:.3g}", median(one.times))},
                                        {"rms, max", "-"},
-                                       {"bytes", asset::summarize(page.asset).bytes}});
+                                       {"bytes", bytes}});
     }
     std::filesystem::remove_all(folder);
 }

@@ -22,7 +22,7 @@ void removeEmptyColumns(const Contenders& all, Json& rows) {
     }
 }
 
-Json pictureRow(Contenders& all, const CompiledFile& picture, const Kind& kind, const std::string& heading,
+Json pictureRow(Contenders& all, const LoadedFile& picture, const Kind& kind, const std::string& heading,
                 const Options& options, std::vector<std::string>& notes) {
     prepare(all, picture, {&kind, 1}, options, notes);
     takeTurns(all, picture, kind, options.side, patienceOf(options), notes);

@@ -14,7 +14,7 @@ inline constexpr Kind again{.name = "again", .moving = false};              ///<
 
 /// One picture, `options.side` wide: the milliseconds of each engine, and in brackets its share of ours.
 /// `heading`: of the first column.
-Json pictureRow(Contenders& all, const CompiledFile& picture, const Kind& kind, const std::string& heading,
+Json pictureRow(Contenders& all, const LoadedFile& picture, const Kind& kind, const std::string& heading,
                 const Options& options, std::vector<std::string>& notes);
 
 /// Those of engines that drew none of the pictures.

@@ -95,13 +95,6 @@ void addPicture(const std::string& name, const scene::Scene& scene, const Option
                            {"both / tree", time.ratio}});
 }
 
-double medianOf(const Json& rows, const char* column) {
-    std::vector<double> values;
-    for (const Json& row : rows)
-        values.push_back(row[column]);
-    return median(values);
-}
-
 }  // namespace
 
 Report recursion(const Options& options) {
@@ -120,12 +113,17 @@ Report recursion(const Options& options) {
     addPicture("256 stars", stars(), options, report);
     for (const File& file : filesOf(options))
         addPicture(file.name, load(file), options, report);
-    const auto medianIn = [&](const char* column) { return medianOf(report.rows, column); };
+    const auto medianOf = [&](const char* column) {
+        std::vector<double> values;
+        for (const Json& row : report.rows)
+            values.push_back(row[column]);
+        return median(values);
+    };
     report.notes.push_back(
         fmt::format("Medians: {:.3g} times smaller than the flat grid by trees, {:.3g} by instances, {:.3g} "
                     "by both; drawn in {:.3g} of the time without instances.",
-                    medianIn("flat / tree"), medianIn("flat / instances"), medianIn("flat / both"),
-                    medianIn("both / tree")));
+                    medianOf("flat / tree"), medianOf("flat / instances"), medianOf("flat / both"),
+                    medianOf("both / tree")));
     return report;
 }
 

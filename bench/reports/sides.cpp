@@ -1,6 +1,5 @@
 #include <fmt/core.h>
 
-#include <vtm/compiler/compile.hpp>
 #include "bench/engines/contest.hpp"
 #include "bench/measure/measure.hpp"
 
@@ -17,8 +16,7 @@ Report sides(const Options& options) {
         "in brackets how many times as long as `{}`, median of the rounds.",
         reference(all).engine->name());
     for (const File& file : oneFileOf(options)) {
-        CompiledFile picture{file, load(file), {}};
-        picture.asset = compiler::compile(picture.scene).asset;
+        const LoadedFile picture{file, load(file)};
         prepare(all, picture, {}, options, report.notes);
         for (int side = 64; side <= 8192; side *= 2) {
             fmt::print(stderr, "{} at {}\n", file.name, side);

@@ -6,7 +6,6 @@
 
 #include <fmt/core.h>
 
-#include <vtm/compiler/compile.hpp>
 #include "bench/input/text_pages.hpp"
 #include "bench/measure/measure.hpp"
 #include "bench/reports/picture_rows.hpp"
@@ -43,8 +42,7 @@ Report text(const Options& options) {
         options.side, reference(all).engine->name());
     report.text += descriptionsOf(all);
     for (const File& file : writeTextPages(folder, report.notes)) {
-        CompiledFile page{file, load(file), {}};
-        page.asset = compiler::compile(page.scene).asset;
+        const LoadedFile page{file, load(file)};
         Json row = pictureRow(all, page, cold, "page", options, report.notes);
         row["of ours: to the scene"] = loadMilliseconds(page.file);
         report.rows.push_back(std::move(row));

@@ -47,8 +47,7 @@ Report threads(const Options& options) {
     std::map<std::string, std::vector<double>> shares;
     for (const File& file : filesOf(options)) {
         fmt::print(stderr, "{}\n", file.name);
-        CompiledFile picture{file, load(file), {}};
-        picture.asset = compiler::compile(picture.scene).asset;
+        const LoadedFile picture{file, load(file)};
         engine.load(picture);
         const asset::View view = wholePicture(picture.scene, options.side);
         Json line = {{"file", file.name}};

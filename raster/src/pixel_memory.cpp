@@ -21,18 +21,19 @@ namespace {
 constexpr std::size_t hugePage = 2 << 20, page = 4 << 10;  ///< bytes
 /// A free block is lent for less than itself, but not for less than this share of it.
 constexpr std::size_t leastShare = 2;
-/// Free blocks are kept up to so many bytes: while something is drawn, a dozen pictures of 2048² pixels.
+/// Free blocks are kept up to so many bytes: while something is drawn, a dozen pictures of 2048² pixels;
+/// between drawings, what a hundred filters took at 1024² pixels (128 MB were too few for that).
 constexpr std::size_t mostWhileDrawing = std::size_t(1) << 30, mostBetween = 192 << 20;
 
-/// To quarters of powers of two, so that blocks of nearly one size fit for each other. What is not used of
-/// them is no memory of the machine.
+/// To quarters of powers of two, so that blocks of nearly one size fit for each other. The system gives
+/// memory only to the part of a block that is used.
 std::size_t roundedUp(std::size_t bytes) {
     const std::size_t step = std::max(std::bit_floor(bytes) / 4, bytes < hugePage ? page : hugePage);
     return (bytes + step - 1) / step * step;
 }
 
-/// From the system and not from the heap: glibc's grows with every few blocks of such an alignment, and its
-/// pages come and go one by one.
+/// From the system, not from glibc's heap: that seldom finds room for such an alignment where such a block
+/// was freed, so it grows with each drawing.
 void* newHugePages(std::size_t bytes) {
     void* const all =
         mmap(nullptr, bytes + hugePage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
