@@ -162,10 +162,6 @@ void encodeRow(const PixelFormat& format, std::span<const Color> colors, std::ui
 void convertColors(std::span<Color> colors, ColorSpace from, ColorSpace to) {
     if (from == to)
         return;
-    const auto each = [&](auto&& change) {
-        for (Color& color : colors)
-            color = change(color);
-    };
     const bool isSame = from.linear == to.linear && from.luminance == to.luminance;
     if (from.premultiplied && !(isSame && to.premultiplied))
         for (Color& color : colors)
@@ -175,11 +171,12 @@ void convertColors(std::span<Color> colors, ColorSpace from, ColorSpace to) {
         const bool toGrey = to.luminance && !from.luminance,
                    isDecoded = !from.linear && (toGrey || to.linear);
         if (isDecoded)
-            each(fastDecoded);
+            fastDecode(colors);
         if (toGrey)
-            each([](Color c) { return Color(glm::vec3(luminance(glm::vec3(c))), c.a); });
+            for (Color& color : colors)
+                color = Color(glm::vec3(luminance(glm::vec3(color))), color.a);
         if ((from.linear || isDecoded) && !to.linear)
-            each(fastEncoded);
+            fastEncode(colors);
     }
     if (to.premultiplied && !(isSame && from.premultiplied))
         for (Color& color : colors)

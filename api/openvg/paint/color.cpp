@@ -1,7 +1,10 @@
 #include "api/openvg/paint/color.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "api/openvg/paint/lanes.hpp"
 
 namespace vtm::openvg {
 
@@ -22,29 +25,38 @@ public:
         for (std::size_t i = 0; i < values_.size(); ++i)
             values_[i] = float(function(double(i) / parts));
     }
-    float operator()(float x) const {
-        const float place = std::min(std::max(x, 0.0f), 1.0f) * float(parts);
-        const auto i = std::min(std::size_t(place), parts - 1);
-        return values_[i] + (place - float(i)) * (values_[i + 1] - values_[i]);
+    /// Of the first three; the last stays.
+    Float4 operator()(Float4 x) const {
+        const Float4 place = unit(x) * splat(float(parts));
+        Float4 result = x;
+        for (int c = 0; c < 3; ++c) {
+            const int i = std::min(int(place[c]), parts - 1);
+            const float* const value = &values_[std::size_t(i)];
+            result[c] = value[0] + (place[c] - float(i)) * (value[1] - value[0]);
+        }
+        return result;
     }
 
 private:
-    static constexpr std::size_t parts = 4096;
+    static constexpr int parts = 4096;
     std::array<float, parts + 1> values_;
 };
 
 }  // namespace
 
-Color fastEncoded(Color c) {
+void fastEncode(std::span<Color> colors) {
     // Over the root, where the curve is not steep.
     static const Table table([](double root) { return encodeGamma(float(root * root)); });
-    return {table(std::sqrt(std::max(c.r, 0.0f))), table(std::sqrt(std::max(c.g, 0.0f))),
-            table(std::sqrt(std::max(c.b, 0.0f))), c.a};
+    for (Color& color : colors) {
+        const Float4 c = loaded(color);
+        assign(color, withAlpha(table(root(greater(c, Float4{}))), c));
+    }
 }
 
-Color fastDecoded(Color c) {
+void fastDecode(std::span<Color> colors) {
     static const Table table([](double x) { return decodeGamma(float(x)); });
-    return {table(c.r), table(c.g), table(c.b), c.a};
+    for (Color& color : colors)
+        assign(color, table(loaded(color)));
 }
 
 ByteGamma::ByteGamma() {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
@@ -33,9 +34,17 @@ inline Color clampedToUnit(Color c) { return glm::min(glm::max(Color(0), c), Col
 float encodeGamma(float linear);
 float decodeGamma(float encoded);
 
-/// The same from tables, within 1e-5: fast enough for every pixel of an edge.
-Color fastEncoded(Color linear);
-Color fastDecoded(Color encoded);
+/// The same of colours, from tables, within 1e-5: fast enough for every pixel of an edge.
+void fastEncode(std::span<Color> linear);
+void fastDecode(std::span<Color> encoded);
+inline Color fastEncoded(Color linear) {
+    fastEncode({&linear, 1});
+    return linear;
+}
+inline Color fastDecoded(Color encoded) {
+    fastDecode({&encoded, 1});
+    return encoded;
+}
 
 /// For bytes: γ⁻¹ of v / 255 for v from 0 to 255, and of numbers from 0 to 1 within a tenth of a byte's step;
 /// γ as bytes, within 0.6 of the exact number's.

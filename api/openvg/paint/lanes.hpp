@@ -2,7 +2,11 @@
 /// Four floats that are added and multiplied at once: a colour in a register.
 #pragma once
 
+#include <cmath>
 #include <cstring>
+#ifdef __SSE2__
+#include <immintrin.h>
+#endif
 
 #include "api/openvg/paint/color.hpp"
 
@@ -34,6 +38,15 @@ inline Float4 lesser(Float4 a, Float4 b) { return b < a ? b : a; }
 inline Float4 greater(Float4 a, Float4 b) { return a > b ? a : b; }
 /// In [0, 1]; NaN becomes 0.
 inline Float4 unit(Float4 v) { return lesser(greater(v, Float4{}), splat(1)); }
+
+/// Of numbers that are not negative.
+inline Float4 root(Float4 v) {
+#ifdef __SSE2__
+    return _mm_sqrt_ps(v);
+#else
+    return Float4{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])};
+#endif
+}
 
 inline Float4 premultiplied(Float4 c) { return c * withAlpha(alphas(c), splat(1)); }
 /// As unpremultiplied(Color).

@@ -2,8 +2,14 @@
 
 #include <algorithm>
 #include <bit>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <vtm/asset/container.hpp>
 #include <vtm/compiler/compile.hpp>
@@ -75,22 +81,93 @@ private:
     std::vector<float> shares_;
 };
 
-/// Opaque regions: what is covered of a pixel is its alpha.
+/// Pixels of a row, each of an opaque colour of its own.
+class RowSource final : public PixelSource {
+public:
+    /// `left`: the column of the surface in which rows begin.
+    RowSource(int left, int width) : PixelSource(sRGBA_PRE), left_(left), colors_(std::size_t(width)) {}
+
+    /// Columns from the left.
+    void set(int first, int end, const Color& light) {
+        for (int x = first; x < end; ++x)
+            colors_[std::size_t(x)] = light;
+    }
+
+    void colors(int x, int /*y*/, std::span<Color> colors) const override {
+        std::copy_n(colors_.begin() + (x - left_), colors.size(), colors.begin());
+        fastEncode(colors);
+    }
+
+private:
+    int left_;
+    std::vector<Color> colors_;  ///< in linear light
+};
+
+/// Draws the runs of opaque regions: what is covered of a pixel is its alpha. Single pixels that are wholly
+/// covered, where regions meet, are drawn together, as are runs of one colour.
+class OpaqueRuns {
+public:
+    OpaqueRuns(Context& context, const Rectangle& seen)
+        : seen_(seen),
+          row_(seen.x0, seen.x1 - seen.x0),
+          byColor_(context, *black_),
+          byPixel_(context, row_) {}
+
+    /// Runs of `seen` from the top, in every row from the left to the right border.
+    void add(int y, const asset::ColorRun& run) {
+        const float share = run.color.a > 1 - rounding ? 1 : run.color.a;
+        if (share == 1 && run.end - run.first < fewPixels)
+            addPixels(run.first, run.end, {glm::vec3(run.color), 1});
+        else if (share > rounding)
+            addColor(y, {run.first, run.end, share}, glm::vec3(run.color) / run.color.a);
+        if (run.end == seen_.x1 - seen_.x0) {
+            draw(byColor_, y, ofColor_);
+            draw(byPixel_, y, ofPixels_);
+        }
+    }
+
+private:
+    /// Of running sums, and of what is divided by alpha: no 255th of a pixel, or of a colour.
+    static constexpr float rounding = 1e-5f;
+    /// More of one colour are filled.
+    static constexpr int fewPixels = 8;
+
+    void addPixels(int first, int end, const Color& light) {
+        row_.set(first, end, light);
+        if (!ofPixels_.empty() && ofPixels_.back().end == first)
+            ofPixels_.back().end = end;
+        else
+            ofPixels_.push_back({first, end, 1});
+    }
+    void addColor(int y, const CoverageRun& covered, const glm::vec3& light) {
+        if (!glm::all(glm::lessThan(glm::abs(light - light_), glm::vec3(rounding)))) {
+            draw(byColor_, y, ofColor_);
+            byColor_.use(fastEncoded(clampedToUnit({light, 1})));
+            light_ = light;
+        }
+        ofColor_.push_back(covered);
+    }
+    void draw(RowCompositor& compositor, int y, std::vector<CoverageRun>& runs) const {
+        for (CoverageRun& run : runs) {
+            run.first += seen_.x0;
+            run.end += seen_.x0;
+        }
+        compositor(y + seen_.y0, runs);
+        runs.clear();
+    }
+
+    Rectangle seen_;
+    std::unique_ptr<PixelSource> black_ = constantSource(Color(0));
+    RowSource row_;
+    RowCompositor byColor_, byPixel_;
+    glm::vec3 light_{-1};  ///< that byColor_ uses; none at first
+    std::vector<CoverageRun> ofColor_, ofPixels_;
+};
+
 void drawOpaque(Context& context, const VtmRecording& recording, const asset::View& view,
                 const Rectangle& seen) {
-    // Roundings of running sums: this is no 255th of a pixel.
-    constexpr float rounding = 1e-5f;
-    const std::unique_ptr<PixelSource> source = constantSource(Color(0));
-    RowCompositor compositor(context, *source);
-    recording.light.scan(view, [&](int y, const asset::ColorRun& run) {
-        if (run.color.a < rounding)
-            return;
-        const float share = run.color.a > 1 - rounding ? 1 : run.color.a;
-        const Color light = clampedToUnit(run.color / run.color.a);
-        compositor.use(fastEncoded({glm::vec3(light), 1}));
-        const CoverageRun covered{run.first + seen.x0, run.end + seen.x0, share};
-        compositor(y + seen.y0, std::span(&covered, 1));
-    });
+    OpaqueRuns runs(context, seen);
+    recording.light.scan(view, [&](int y, const asset::ColorRun& run) { runs.add(y, run); });
 }
 
 void drawTranslucent(Context& context, const VtmRecording& recording, const asset::View& view,

@@ -50,6 +50,63 @@ TEST_F(Recordings, AreDrawnByTheStateOfNow) {
     EXPECT_EQ(pixel(40, 10), (Rgba{0, 0, 255, 255}));
 }
 
+TEST_F(Recordings, PixelsOfManyRegionsFollowTheState) {
+    resetState();
+    const Recording recording = record([&] {
+        useColor({0.1f, 0.3f, 0.7f, 1});
+        fill(wholeSurface());
+        for (int i = 0; i < 12; ++i) {
+            useColor({float(i) / 12, 1 - float(i) / 12, float(i % 3) / 2, 1});
+            fill(ellipse(float(4 + 5 * i), float(8 + 17 * i % 48), 9, 25));
+        }
+        useColor({0.9f, 0.6f, 0.2f, 1});
+        fill(star());
+    });
+    /// Under the state that `set` makes, over white.
+    const auto drawn = [&](const std::function<void()>& set) {
+        resetState();
+        clear({1, 1, 1, 1});
+        vgTranslate(32, 32);
+        vgRotate(20);
+        vgScale(1.6f, 1.5f);
+        vgTranslate(-32, -32);
+        set();
+        vtmDrawRecording(recording.get());
+        return pixels();
+    };
+    const std::vector<std::uint8_t> plain = drawn([] {});
+    EXPECT_LE(largestDifference(plain, drawn([&] {
+                                    vgMask(VG_INVALID_HANDLE, VG_FILL_MASK, 0, 0, side, side);
+                                    vgSeti(VG_MASKING, VG_TRUE);
+                                })),
+              1);
+    EXPECT_LE(largestDifference(plain, drawn([] { vgSeti(VG_BLEND_MODE, VG_BLEND_MULTIPLY); })), 1);
+    EXPECT_EQ(plain, drawn([] { vgSeti(VG_BLEND_MODE, VG_BLEND_SRC); }));
+
+    const std::vector<std::uint8_t> halved = drawn([] {
+        const VGfloat values[] = {0.5f, 1, 1, 1, 0, 0, 0.25f, 0};
+        vgSetfv(VG_COLOR_TRANSFORM_VALUES, 8, values);
+        vgSeti(VG_COLOR_TRANSFORM, VG_TRUE);
+    });
+    const std::vector<std::uint8_t> cut = drawn([] {
+        const VGint boxes[] = {0, 0, 20, 64, 31, 5, 3, 50};
+        vgSetiv(VG_SCISSOR_RECTS, 8, boxes);
+        vgSeti(VG_SCISSORING, VG_TRUE);
+    });
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+            const auto at = [&](const std::vector<std::uint8_t>& bytes) {
+                const std::uint8_t* p = &bytes[std::size_t(4 * (y * side + x))];
+                return Rgba{p[0], p[1], p[2], p[3]};
+            };
+            const Rgba all = at(plain);
+            ASSERT_TRUE(isNear(at(halved), {(all[0] + 1) / 2, all[1], std::min(all[2] + 64, 255), 255}, 1))
+                << x << ", " << y;
+            const bool isSeen = x < 20 || (x >= 31 && x < 34 && y >= 9 && y < 59);
+            ASSERT_EQ(at(cut), isSeen ? all : (Rgba{255, 255, 255, 255})) << x << ", " << y;
+        }
+}
+
 TEST_F(Recordings, LinearSurfacesGetTheSameLight) {
     useSurface(side, side, linear8888);
     constexpr int stepOfLight = 4;  // a byte of light more is as many encoded, near the darkest colour here
