@@ -66,6 +66,7 @@ public:
 private:
     struct GradientChange {
         Gradient gradient;
+        double stretch;                     ///< of its matrix
         double slope, all;                  ///< of the ramp, anywhere (RampChange in steepness.cpp)
         double linearOffset, radialOffset;  ///< what u changes by over a unit of the picture, at most
     };

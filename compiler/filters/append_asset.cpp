@@ -1,6 +1,7 @@
 #include "compiler/filters/append_asset.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <span>
 #include <string>
@@ -59,7 +60,14 @@ private:
 class Appending {
 public:
     Appending(const Asset& part, glm::dvec2 by, Asset& asset)
-        : part_(part), by_(by), asset_(asset), base_(asset) {}
+        : part_(part), by_(by), asset_(asset), base_(asset) {
+        const auto add = [&](Entry::Kind kind, std::uint32_t payload) {
+            addedTo_[static_cast<std::size_t>(kind)] = payload << 2;
+        };
+        add(Entry::Kind::Leaf, base_.leaves);
+        add(Entry::Kind::Node, base_.nodes);
+        add(Entry::Kind::Instances, base_.instances * asset::maxInstancesPerCell);
+    }
 
     void run() {
         appendPaints();
@@ -70,20 +78,8 @@ public:
     }
 
 private:
-    Entry moved(Entry entry) const {
-        switch (entry.kind()) {
-            case Entry::Kind::Leaf:
-                return Entry::make(entry.kind(), entry.payload() + base_.leaves);
-            case Entry::Kind::Node:
-                return Entry::make(entry.kind(), entry.payload() + base_.nodes);
-            case Entry::Kind::Instances:
-                return Entry::make(entry.kind(),
-                                   entry.payload() + base_.instances * asset::maxInstancesPerCell);
-            case Entry::Kind::Solid:
-                break;
-        }
-        return entry;
-    }
+    /// Its payload counts from where the part's records begin.
+    Entry moved(Entry entry) const { return {entry.bits + addedTo_[entry.bits & 3]}; }
 
     void appendTrees() {
         append(asset_.nodes, part_.nodes);
@@ -236,7 +232,8 @@ private:
     const glm::dvec2 by_;
     Asset& asset_;
     const Bases base_;
-    std::vector<std::uint32_t> materials_;  ///< of the part, in the asset
+    std::array<std::uint32_t, 4> addedTo_{};  ///< to the bits of an entry of a kind
+    std::vector<std::uint32_t> materials_;    ///< of the part, in the asset
 };
 
 }  // namespace

@@ -50,11 +50,31 @@ bool fits(const Box& frame, const PlainPart& part) {
            longerSide(frame) <= maxTimes * longerSide(part.frame);
 }
 
-/// For an asset that will be about as large.
-void reserveAsIn(const asset::Asset& last, asset::Asset& next) {
-    next.nodes.reserve(last.nodes.size());
-    next.leaves.reserve(last.leaves.size());
-    next.pieces.reserve(last.pieces.size());
+/// Calls f for an asset's members with most bytes.
+template <class Function>
+void eachLarge(Function&& f) {
+    f(&asset::Asset::nodes);
+    f(&asset::Asset::leaves);
+    f(&asset::Asset::pieces);
+}
+
+/// The memory of an asset that is no longer needed, for one that will be about as large.
+asset::Asset memoryOf(asset::Asset&& last) {
+    asset::Asset memory;
+    eachLarge([&](auto records) {
+        memory.*records = std::move(last.*records);
+        (memory.*records).clear();
+    });
+    return memory;
+}
+/// Lets `asset` have that memory, and enough for as much as another one has.
+void provide(asset::Asset&& memory, const asset::Asset& another, asset::Asset& asset) {
+    eachLarge([&](auto records) {
+        auto& own = memory.*records;
+        own.reserve((another.*records).size());
+        own.assign((asset.*records).begin(), (asset.*records).end());
+        asset.*records = std::move(own);
+    });
 }
 
 }  // namespace
@@ -149,7 +169,7 @@ void FilteredParts::update(const scene::Scene& scene, std::vector<const scene::P
 
     Edited report{{.anew = before.empty(), .blocksInAll = last.size()}, {}};
     asset::Difference& difference = report.difference;
-    reserveAsIn(result_.asset, plan.commands.asset);
+    provide(std::move(spare_), result_.asset, plan.commands.asset);
     const auto take = [&](std::size_t i) -> const Result& {
         const Result& picture = parts[i].picture.result();
         const Edited& edit = parts[i].picture.report();
@@ -177,7 +197,7 @@ void FilteredParts::update(const scene::Scene& scene, std::vector<const scene::P
     scene_ = scene;
     paths_ = std::move(paths);
     parts_ = std::move(parts);
-    result_ = std::move(result);
+    spare_ = memoryOf(std::exchange(result_, std::move(result)).asset);
     report_ = std::move(report);
 }
 

@@ -215,8 +215,8 @@ private:
         BandPixel pixel;
         PaintChange change;
     };
-    /// So many neighbours are looked at together at first.
-    static constexpr int maxNeighbours = 16;
+    /// No more are looked at one by one, if they are not left out together.
+    static constexpr int fewNeighbours = 16;
 
     /// Calls take(row, first column, end, what was summed) for what the program has of the band. Only the
     /// pixels in the box around its chords are looked at.
@@ -467,15 +467,15 @@ private:
 
     /// Of pixels that no edge cuts those that may be rough become some of doubtful_.
     void addUncut(const ProgramView& of, std::uint32_t paint, int row, int first, int end) {
-        for (; first < end; first += maxNeighbours) {
-            const int to = std::min(first + maxNeighbours, end);
-            if (to - first > 1 && !of.rough.mayBeRoughNear(of.changeNear(paint, top_ + row, first, to)))
-                continue;
-            for (int x = first; x < to; ++x)
-                if (const PaintChange near = of.changeNear(paint, top_ + row, x, x + 1);
-                    of.rough.mayBeRoughNear(near))
-                    doubtful_.push_back({{row, x}, near});
-        }
+        const PaintChange near = of.changeNear(paint, top_ + row, first, end);
+        if (!of.rough.mayBeRoughNear(near))
+            return;
+        if (end - first == 1)
+            return doubtful_.push_back({{row, first}, near});
+        const int parts = end - first > fewNeighbours ? 4 : end - first;
+        for (int i = 0; i < parts; ++i)
+            addUncut(of, paint, row, first + i * (end - first) / parts,
+                     first + (i + 1) * (end - first) / parts);
     }
 
     /// Those of doubtful_ that are rough become some of rough_.

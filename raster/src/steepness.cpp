@@ -81,13 +81,19 @@ void forEachStretch(std::span<const Texel> data, const Gradient& gradient, std::
         add(changeBetween(data, last, first), 1, 1);
 }
 
+/// The largest of what the gradient's matrix stretches a vector by.
+double stretchOf(const Gradient& gradient) {
+    const std::array<float, 6>& m = gradient.matrix;
+    return stretchOf(glm::dmat2(m[0], m[1], m[2], m[3]));
+}
+
 /// What u changes by, at most, over a unit of the picture.
 double offsetSlope(const Gradient& gradient, bool isRadial) {
     const std::array<float, 6>& m = gradient.matrix;
     if (!isRadial)
         return glm::length(dvec2(m[0], m[2]));
     const double gap = 1 - gradient.fr - glm::length(dvec2(gradient.fx, gradient.fy));
-    return gap < minCircleGap ? infinity : stretchOf({m[0], m[1], m[2], m[3]}) / gap;
+    return gap < minCircleGap ? infinity : stretchOf(gradient) / gap;
 }
 
 /// What u changes by, at most, in a disc of the gradient's space; 0 where nothing is painted.
@@ -221,14 +227,14 @@ struct OffsetsNear {
     Offsets offsets;
 };
 
-OffsetsNear offsetsNear(const Gradient& gradient, bool isRadial, const PixelsNear& pixels) {
+/// `stretch`: that of a radial gradient.
+OffsetsNear offsetsNear(const Gradient& gradient, bool isRadial, double stretch, const PixelsNear& pixels) {
     const std::array<float, 6>& m = gradient.matrix;
     const dvec2 p(m[0] * pixels.middle.x + m[2] * pixels.middle.y + m[4],
                   m[1] * pixels.middle.x + m[3] * pixels.middle.y + m[5]);
     const double radius = pixels.radius + 0.5 * pixels.pixel;
     double slope, u = p.x;
     if (isRadial) {
-        const double stretch = stretchOf({m[0], m[1], m[2], m[3]});
         slope = stretch * radialSlopeIn(gradient, p, stretch * radius);
         u = std::isfinite(slope) && slope > 0 ? radialOffset(gradient, p) : 0;
     } else {
@@ -243,7 +249,7 @@ double changeNear(const AssetView& asset, std::uint32_t texel, bool isRadial, co
     const auto gradient = recordAt<Gradient>(asset.data, texel);
     if (gradient.stopCount > maxStops)
         return infinity;
-    const auto [slope, near] = offsetsNear(gradient, isRadial, pixels);
+    const auto [slope, near] = offsetsNear(gradient, isRadial, stretchOf(gradient), pixels);
     if (slope == 0)
         return 0;
     const double width = slope * pixels.pixel;
@@ -319,8 +325,8 @@ const PaintChanges::GradientChange& PaintChanges::gradientAt(std::uint32_t texel
             if (ramp.all < minRange)
                 ramp = {};
         }
-        gradients_.push_back(
-            {gradient, ramp.slope, ramp.all, offsetSlope(gradient, false), offsetSlope(gradient, true)});
+        gradients_.push_back({gradient, stretchOf(gradient), ramp.slope, ramp.all,
+                              offsetSlope(gradient, false), offsetSlope(gradient, true)});
         numbers_[texel] = std::uint32_t(gradients_.size());
     }
     return gradients_[numbers_[texel] - 1];
@@ -334,7 +340,7 @@ PaintChange PaintChanges::near(std::uint32_t paint, const PixelsNear& pixels) co
         const bool isRadial = in.op == Op::Radial;
         if (gradient.slope == 0)
             return Slopes{};
-        const OffsetsNear near = offsetsNear(gradient.gradient, isRadial, pixels);
+        const OffsetsNear near = offsetsNear(gradient.gradient, isRadial, gradient.stretch, pixels);
         RampChange ramp{gradient.slope, gradient.all};
         if (std::isfinite(ramp.all) && std::isfinite(near.slope)) {
             ramp = {};
