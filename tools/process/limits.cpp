@@ -2,7 +2,6 @@
 
 #include <cstdio>
 
-#include <malloc.h>
 #include <unistd.h>
 
 #include <fmt/core.h>
@@ -57,11 +56,12 @@ void setMaxSeconds(double seconds) { allowance.seconds = seconds; }
 void setMaxMegabytes(double megabytes) { allowance.megabytes = megabytes; }
 
 PictureLimits::PictureLimits(std::string path, bool alone)
-    : budget_(limitsOf(path, alone)), scope_(budget_) {}
+    : budget_(limitsOf(path, alone)), scope_(budget_), alone_(alone) {}
 
 PictureLimits::~PictureLimits() {
     clearProgress();
-    malloc_trim(0);
+    if (!alone_)
+        trimHeap();
 }
 
 double secondsForFirstTry() {

@@ -12,9 +12,9 @@ namespace vtm::tools {
 void setMaxSeconds(double seconds);
 void setMaxMegabytes(double megabytes);
 
-/// Holds the limits on this thread for one picture; when it ends, memory goes back to the system. A picture
-/// that is `alone` ends the process if it cannot be stopped otherwise or takes long to be given up; one of
-/// many only in the first case.
+/// Holds the limits on this thread for one picture. A picture that is `alone` ends the process if it cannot
+/// be stopped otherwise or takes long to be given up; one of many only in the first case, and memory goes
+/// back to the system after it.
 class PictureLimits {
 public:
     PictureLimits(std::string path, bool alone);
@@ -25,6 +25,7 @@ public:
 private:
     limits::Budget budget_;
     const limits::Scope scope_;
+    const bool alone_;
 };
 
 /// Seconds after which a simpler way of drawing is tried: a third of --max-seconds, less what is used up; 0

@@ -4,10 +4,10 @@
 #include <cstdlib>
 
 #include <fcntl.h>
-#include <malloc.h>
 #include <unistd.h>
 
 #include <vtm/image/codec.hpp>
+#include "tools/process/heap.hpp"
 
 namespace vtm::tools {
 
@@ -36,18 +36,11 @@ void handle(int signal) {
     sigaction(signal, &action, nullptr);
 }
 
-/// Rasters come and go by the dozen. Memory that is given back to the system comes again page by page, which
-/// took a sixth of the time of pictures with filters.
-void keepFreedMemory() {
-    mallopt(M_MMAP_THRESHOLD, 32 << 20);  // bytes; the most that it takes
-    mallopt(M_TRIM_THRESHOLD, 1 << 30);
-}
-
 }  // namespace
 
 void prepareProcess() {
     openMissingDescriptors();
-    keepFreedMemory();
+    prepareHeap();
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
     for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGXCPU})
