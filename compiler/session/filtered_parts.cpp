@@ -50,31 +50,15 @@ bool fits(const Box& frame, const PlainPart& part) {
            longerSide(frame) <= maxTimes * longerSide(part.frame);
 }
 
-/// Calls f for an asset's members with most bytes.
-template <class Function>
-void eachLarge(Function&& f) {
-    f(&asset::Asset::nodes);
-    f(&asset::Asset::leaves);
-    f(&asset::Asset::pieces);
-}
-
-/// The memory of an asset that is no longer needed, for one that will be about as large.
-asset::Asset memoryOf(asset::Asset&& last) {
-    asset::Asset memory;
-    eachLarge([&](auto records) {
-        memory.*records = std::move(last.*records);
-        (memory.*records).clear();
-    });
-    return memory;
-}
-/// Lets `asset` have that memory, and enough for as much as another one has.
-void provide(asset::Asset&& memory, const asset::Asset& another, asset::Asset& asset) {
-    eachLarge([&](auto records) {
-        auto& own = memory.*records;
-        own.reserve((another.*records).size());
-        own.assign((asset.*records).begin(), (asset.*records).end());
-        asset.*records = std::move(own);
-    });
+/// Gives the memory of an asset's nodes, leaves and pieces, which are lost, to one that has none yet.
+void giveMemory(asset::Asset& from, asset::Asset& to) {
+    const auto give = [&](auto records) {
+        (from.*records).clear();
+        to.*records = std::move(from.*records);
+    };
+    give(&asset::Asset::nodes);
+    give(&asset::Asset::leaves);
+    give(&asset::Asset::pieces);
 }
 
 }  // namespace
@@ -169,7 +153,7 @@ void FilteredParts::update(const scene::Scene& scene, std::vector<const scene::P
 
     Edited report{{.anew = before.empty(), .blocksInAll = last.size()}, {}};
     asset::Difference& difference = report.difference;
-    provide(std::move(spare_), result_.asset, plan.commands.asset);
+    giveMemory(spare_, plan.commands.asset);
     const auto take = [&](std::size_t i) -> const Result& {
         const Result& picture = parts[i].picture.result();
         const Edited& edit = parts[i].picture.report();
@@ -197,7 +181,8 @@ void FilteredParts::update(const scene::Scene& scene, std::vector<const scene::P
     scene_ = scene;
     paths_ = std::move(paths);
     parts_ = std::move(parts);
-    spare_ = memoryOf(std::exchange(result_, std::move(result)).asset);
+    std::swap(result_, result);
+    giveMemory(result.asset, spare_);
     report_ = std::move(report);
 }
 

@@ -51,7 +51,7 @@ private:
     scene::Scene scene_;
     std::vector<const scene::Path*> paths_;  ///< of the scene, which holds them; ascending
     Result result_;
-    asset::Asset spare_;  ///< empty: the memory of the result before, for the next one
+    asset::Asset spare_;  ///< empty, with the memory of the result before: for the next one
     Edited report_;
 };
 

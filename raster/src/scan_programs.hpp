@@ -215,7 +215,7 @@ private:
         BandPixel pixel;
         PaintChange change;
     };
-    /// No more are looked at one by one, if they are not left out together.
+    /// So many neighbours that may be rough are looked at one by one; more are divided by four first.
     static constexpr int fewNeighbours = 16;
 
     /// Calls take(row, first column, end, what was summed) for what the program has of the band. Only the

@@ -19,9 +19,9 @@ void keepFreedMemory() {
     mallopt(M_TRIM_THRESHOLD, 1 << 30);
 }
 
-/// Of huge pages, where the system has them, is what the heap grows by first: these are addresses, and memory
-/// when they are used. Each small page is a fault when it is used first, of 0.2 µs to more than 10 on virtual
-/// machines, where the faults of a map took a third of the time of drawing it.
+/// The heap gets addresses, which become memory when they are used: in huge pages, where the system has them.
+/// A small page is a fault when it is first used. That takes 0.2 µs, on virtual machines more than 10, where
+/// the faults of a map took a third of the time of drawing it.
 void growByHugePages() {
     constexpr int addresses = 128 << 20, usualPad = 128 << 10;
     constexpr std::size_t more = 1 << 20;  // than the heap has when a process starts

@@ -129,7 +129,7 @@ public:
 private:
     /// Of running sums, and of what is divided by alpha: no 255th of a pixel, or of a colour.
     static constexpr float rounding = 1e-5f;
-    /// More of one colour are filled.
+    /// Longer runs of one colour are filled.
     static constexpr int fewPixels = 8;
 
     void addPixels(int first, int end, const Color& light) {
@@ -142,7 +142,7 @@ private:
     void addColor(int y, const CoverageRun& covered, const glm::vec3& light) {
         if (!glm::all(glm::lessThan(glm::abs(light - light_), glm::vec3(rounding)))) {
             draw(byColor_, y, ofColor_);
-            byColor_.use(fastEncoded(clampedToUnit({light, 1})));
+            byColor_.use(fastEncoded({light, 1}));
             light_ = light;
         }
         ofColor_.push_back(covered);
